@@ -1,0 +1,73 @@
+#ifndef FACEWIRE_CORE_RIG_RIG_H_
+#define FACEWIRE_CORE_RIG_RIG_H_
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "core/base/capacity.h"
+#include "core/base/geometry.h"
+#include "core/base/inline_vector.h"
+#include "core/base/name.h"
+#include "core/rig_pose.h"
+
+namespace facewire {
+
+// What a channel's value means. The numbers are those of the wire (core/wire/README.md): append only.
+enum class ChannelKind : std::uint8_t {
+  kParameter = 0,  // a blend-shape weight or any named number; unit: the rig's own, blend shapes 0..1
+  kPositionX = 1,  // a bone's offset from its rest position, cm; axes as the head frame of FacePose
+  kPositionY = 2,
+  kPositionZ = 3,
+  kPitch = 4,  // rotation of a bone from its rest, degrees; R = Ry(yaw) Rx(pitch) Rz(roll)
+  kYaw = 5,
+  kRoll = 6,
+};
+constexpr bool IsPosition(ChannelKind k) noexcept {
+  return k >= ChannelKind::kPositionX && k <= ChannelKind::kPositionZ;
+}
+constexpr bool IsRotation(ChannelKind k) noexcept { return k >= ChannelKind::kPitch; }
+
+// One part of the sum that drives a channel: gain * signal. Signals are the outputs of the expression
+// mapping by name ("jawOpen"), and the head: "head.pitch", "head.yaw", "head.roll" in degrees,
+// "head.x", "head.y", "head.z" in cm from where the head was in the neutral capture.
+struct Drive {
+  ShortName signal;
+  float gain = 1;
+};
+
+// One number that the host receives. Position channels without drives follow the geometry mapping of
+// their bone; every other channel is neutral + the sum of its drives.
+struct Channel {
+  ShortName name;  // of the parameter ("jawOpen"), or "bone.axis" ("jaw.pitch")
+  ChannelKind kind = ChannelKind::kParameter;
+  std::int16_t bone = -1;  // index into Rig::bones; -1 for a parameter
+  // The value with a neutral face; min <= neutral <= max.
+  float neutral = 0;
+  float min = 0;
+  float max = 1;
+  float max_speed_per_s = 0;          // in the channel's unit; 0 = unlimited
+  float max_acceleration_per_s2 = 0;  // 0 = unlimited
+  InlineVector<Drive, kMaxDrives> drives;
+};
+
+// A bone of the character. A bone with a landmark is a sample of the geometry mapping: the performer's
+// neutral landmark corresponds to the bone's rest position.
+struct Bone {
+  ShortName name;
+  Point3 rest_cm{};            // in the character's space
+  std::int16_t landmark = -1;  // index into Landmarks::points_px; -1 = none
+};
+
+struct Rig {
+  ShortName name;
+  InlineVector<Bone, kMaxBones> bones;
+  InlineVector<Channel, kMaxChannels> channels;
+
+  std::optional<std::size_t> FindChannel(std::string_view channel) const noexcept;
+  RigPose NeutralPose() const noexcept;  // seq 0, captured at the origin of time
+};
+
+}  // namespace facewire
+
+#endif  // FACEWIRE_CORE_RIG_RIG_H_

@@ -1,0 +1,71 @@
+# What every target of facewire shares: language level, warnings, sanitizers, and the arrows.
+
+option(FACEWIRE_BUILD_TESTS "Build tests and benchmarks" ON)
+set(FACEWIRE_SANITIZE "" CACHE STRING "Sanitizers for everything, such as address,undefined or thread")
+set(FACEWIRE_ASSETS "${PROJECT_SOURCE_DIR}/.assets" CACHE PATH
+    "Where tools/setup unpacked the networks and the test footage")
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+                    -Wconversion -Wno-sign-conversion -Werror)
+if(FACEWIRE_SANITIZE)
+  add_compile_options(-fsanitize=${FACEWIRE_SANITIZE} -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${FACEWIRE_SANITIZE})
+endif()
+
+# The arrows of the architecture, enforced by the compiler: a layer sees the source folders that it may
+# include and no others, because each layer has an include root of links to just those folders.
+#   core -> core          hal -> core          app -> hal, core          tools -> app, hal, core
+function(facewire_include_root layer)
+  set(root "${PROJECT_BINARY_DIR}/include/${layer}")
+  file(MAKE_DIRECTORY "${root}")
+  foreach(folder ${ARGN})
+    file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}" "${root}/${folder}" SYMBOLIC)
+  endforeach()
+  set(FACEWIRE_INCLUDE_ROOT_${layer} "${root}" PARENT_SCOPE)
+endfunction()
+facewire_include_root(core core)
+facewire_include_root(hal core hal)
+facewire_include_root(app core hal app)
+facewire_include_root(tools core hal app tools)
+facewire_include_root(tests core hal app tools tests)
+
+# facewire_library(NAME LAYER core|hal|app|tools SOURCES ... [DEPENDS ...])
+# Targets of the core layer are built without exceptions and RTTI.
+function(facewire_library name)
+  cmake_parse_arguments(ARG "" "LAYER" "SOURCES;DEPENDS" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE "${FACEWIRE_INCLUDE_ROOT_${ARG_LAYER}}")
+  target_link_libraries(${name} PUBLIC ${ARG_DEPENDS})
+  if(ARG_LAYER STREQUAL "core")
+    target_compile_options(${name} PRIVATE -fno-exceptions -fno-rtti)
+  endif()
+endfunction()
+
+# facewire_test(NAME SOURCES ... [DEPENDS ...] [LABELS ...]): one GoogleTest executable, one ctest entry.
+function(facewire_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE "${FACEWIRE_INCLUDE_ROOT_tests}")
+  target_compile_definitions(${name} PRIVATE FACEWIRE_ASSETS="${FACEWIRE_ASSETS}"
+                             FACEWIRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
+  add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600)
+endfunction()
+
+# facewire_benchmark(NAME SOURCES ... [DEPENDS ...]): one Google Benchmark executable, run by hand.
+function(facewire_benchmark name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE "${FACEWIRE_INCLUDE_ROOT_tests}")
+  target_compile_definitions(${name} PRIVATE FACEWIRE_ASSETS="${FACEWIRE_ASSETS}"
+                             FACEWIRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} benchmark::benchmark_main)
+endfunction()

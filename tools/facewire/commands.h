@@ -1,0 +1,20 @@
+#ifndef FACEWIRE_TOOLS_FACEWIRE_COMMANDS_H_
+#define FACEWIRE_TOOLS_FACEWIRE_COMMANDS_H_
+
+namespace CLI {
+class App;
+}
+
+// One function a subcommand, each in a file of its own. It adds options and a callback to a fresh
+// subcommand; the callback reports errors as app::BadInput (exit code 2) or app::Failure (1).
+namespace facewire::tools {
+
+void AddTrack(CLI::App& facewire);
+void AddRetarget(CLI::App& facewire);
+void AddTrain(CLI::App& facewire);
+void AddMonitor(CLI::App& facewire);
+void AddDoctor(CLI::App& facewire);
+
+}  // namespace facewire::tools
+
+#endif  // FACEWIRE_TOOLS_FACEWIRE_COMMANDS_H_
