@@ -1,26 +1,55 @@
 #include "core/wire/rig_description.h"
 
-#include <array>
+#include <bit>
 #include <span>
 #include <variant>
 
 #include "core/wire/crc32.h"
-#include "core/wire/encoder.h"
 
 namespace facewire::wire {
 
-std::uint32_t RigId(const Rig& rig) noexcept {
-  // The CRC over the frames that describe the rig under the id 0, in order: whatever a host sees of
-  // a rig counts, and nothing else. A part that cannot be described does not count.
-  Encoder encoder;
-  Crc32 crc;
-  std::array<std::byte, kMaxDescriptionFrameBytes> buffer;
-  for (std::size_t i = 0; i < DescriptionCount(rig); ++i) {
-    const auto part = Description(rig, 0, i);
-    if (!part) continue;
-    if (const auto frame = encoder.Encode(*part, buffer)) crc.Add(*frame);
+namespace {
+
+// Not over finished frames: each ends in its own CRC, and a CRC over data and its CRC is the same
+// number for any data.
+class Digest {
+ public:
+  void Add(std::uint32_t value) noexcept {
+    for (unsigned shift = 0; shift < 32; shift += 8)
+      crc_.Add(static_cast<std::byte>(value >> shift));
   }
-  return crc.value();
+  void Add(float value) noexcept { Add(std::bit_cast<std::uint32_t>(value)); }
+  void Add(const ShortName& name) noexcept {
+    Add(static_cast<std::uint32_t>(name.view().size()));
+    crc_.Add(std::as_bytes(std::span(name.view())));
+  }
+  std::uint32_t value() const noexcept { return crc_.value(); }
+
+ private:
+  Crc32 crc_;
+};
+
+}  // namespace
+
+std::uint32_t RigId(const Rig& rig) noexcept {
+  Digest digest;
+  digest.Add(rig.name);
+  digest.Add(static_cast<std::uint32_t>(rig.bones.size()));
+  for (const Bone& bone : rig.bones) {
+    digest.Add(bone.name);
+    digest.Add(bone.rest_cm.x);
+    digest.Add(bone.rest_cm.y);
+    digest.Add(bone.rest_cm.z);
+  }
+  for (const Channel& c : rig.channels) {
+    digest.Add(c.name);
+    digest.Add(static_cast<std::uint32_t>(c.kind));
+    digest.Add(static_cast<std::uint32_t>(c.bone));
+    digest.Add(c.neutral);
+    digest.Add(c.min);
+    digest.Add(c.max);
+  }
+  return digest.value();
 }
 
 Result<Message> Description(const Rig& rig, std::uint32_t rig_id, std::size_t index) noexcept {
