@@ -62,7 +62,7 @@ class Decoder {
   void Append(std::byte byte) noexcept;
   void Take(std::byte byte) noexcept;
   Result<Received> Finish() noexcept;
-  Result<Received> Check() noexcept;
+  Result<Received> Check(std::span<const std::byte> checked) noexcept;
   void CountSequence(std::uint16_t sequence) noexcept;
 
   std::array<std::byte, kMaxWirePayload> buffer_{};  // without COBS

@@ -34,20 +34,20 @@ struct RigHeader {
   std::uint32_t rig_id = 0;
   std::uint8_t bones = 0;     // 0..kMaxBones
   std::uint8_t channels = 0;  // 0..kMaxChannels
-  ShortName name;             // may be empty
+  ShortName name{};           // may be empty
 };
 
 struct BoneDescription {
   std::uint32_t rig_id = 0;
   std::uint8_t index = 0;
-  ShortName name;
+  ShortName name{};
   Point3 rest_cm{};  // in the character's space
 };
 
 struct ChannelDescription {
   std::uint32_t rig_id = 0;
   std::uint8_t index = 0;
-  ShortName name;
+  ShortName name{};
   ChannelKind kind = ChannelKind::kParameter;  // a kind of a later sender arrives as kParameter
   std::int16_t bone = -1;                      // index of the bone, -1 for none
   float neutral = 0;                           // in the kind's unit; min <= neutral <= max, finite
@@ -63,7 +63,7 @@ struct Pose {
   Time captured{};                               // on the device's clock
   std::uint32_t age_us = 0;                      // from the capture to the encoding of this message
   ServiceState state = ServiceState::kStarting;  // a state of a later sender arrives as kFault
-  InlineVector<std::uint16_t, kMaxChannels> values;
+  InlineVector<std::uint16_t, kMaxChannels> values{};
 };
 
 // How the service fares; sent about once a second. Counters wrap at 2^32.

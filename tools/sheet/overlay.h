@@ -1,0 +1,15 @@
+#ifndef FACEWIRE_TOOLS_SHEET_OVERLAY_H_
+#define FACEWIRE_TOOLS_SHEET_OVERLAY_H_
+
+#include "core/landmarks.h"
+#include "tools/sheet/canvas.h"
+
+namespace facewire::tools {
+
+// Draws landmarks over the picture they belong to, which fills the box: every point as a dot, the outlines
+// of face, eyes, brows and lips, and the irises where the network gives them.
+void DrawLandmarks(const Landmarks& landmarks, const cv::Rect2d& box, Canvas& canvas);
+
+}  // namespace facewire::tools
+
+#endif  // FACEWIRE_TOOLS_SHEET_OVERLAY_H_
