@@ -52,7 +52,7 @@ TEST(PickMoments, KeepsHalfASecondBetweenTwo) {
   Context context;
   Set(context.rig, context.poses[100], "jaw.pitch", 24);
   Set(context.rig, context.poses[105], "neck.yaw", 50);
-  Set(context.rig, context.poses[112], "neck.yaw", 40);
+  Set(context.rig, context.poses[113], "neck.yaw", 40);
   EXPECT_THAT(context.Call(), ElementsAre(Field(&Pick::index, 0), Field(&Pick::index, 100), Field(&Pick::index, 113)));
 }
 
