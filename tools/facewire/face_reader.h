@@ -38,8 +38,6 @@ class FaceReader {
  public:
   // Opens the input and loads the networks. Throws BadInput, Failure.
   explicit FaceReader(const FaceOptions& options);
-  // A camera made by somebody else, not started yet.
-  FaceReader(std::unique_ptr<hal::Camera> camera, const std::string& name, const FaceOptions& options);
   ~FaceReader();
 
   // The next picture, whose pixels are there until the next call; nullopt at the end of a recording.
@@ -51,7 +49,7 @@ class FaceReader {
   void Lose() { tracker_.Reset(); }
 
  private:
-  void Load(const FaceOptions& options);
+  void LoadNetworks(const FaceOptions& options);
 
   hal::SystemClock clock_;
   std::string name_;
