@@ -163,9 +163,9 @@ void Monitor(const Options& options) {
     end = session->Run(limits, interrupted);
   }
   const MonitorModel& model = session->model();
+  RequireFrames(model, end);
   WriteOut(SummaryText(model));
   if (end == MonitorEnd::kClosed) WriteOut("the other side closed the line\n");
-  RequireFrames(model, end);
   if (recorder) {
     recorder->Finish(model.rig);
     WriteOut(std::to_string(recorder->recorded()) + " poses recorded in " + options.csv +
