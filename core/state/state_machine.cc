@@ -136,7 +136,10 @@ ServiceState StateMachine::Next(const Inputs& in) noexcept {
     // What the host last received is unknown: start over, from neutral.
     return in.sight == Sight::kSilent ? ServiceState::kFault : ServiceState::kStarting;
   }
-  if (in.sight == Sight::kFace) return ServiceState::kTracking;
+  if (in.rest && (state_ == ServiceState::kTracking || state_ == ServiceState::kHolding)) {
+    return ServiceState::kEasing;
+  }
+  if (in.sight == Sight::kFace && !in.rest) return ServiceState::kTracking;
   return NextUnseen(in);
 }
 

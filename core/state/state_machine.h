@@ -32,9 +32,10 @@ enum class Sight : std::uint8_t {
 struct Inputs {
   Time now{};
   Sight sight = Sight::kNoFace;
-  bool stop = false;       // emergency stop: a command, or a line that is asserted at this moment
-  bool release = false;    // leave the emergency stop; ignored while `stop` is true
-  bool quit = false;       // the process was asked to end; latched
+  bool stop = false;     // emergency stop: a command, or a line that is asserted at this moment
+  bool release = false;  // leave the emergency stop; ignored while `stop` is true
+  bool rest = false;  // somebody wants neutral, whatever the camera sees, for as long as it is set
+  bool quit = false;  // the process was asked to end; latched
   bool line_gone = false;  // nobody can receive: the host's line is closed
 };
 

@@ -166,6 +166,11 @@ Take ReadC3d(const std::string& contents, const std::string& name) {
   // A longer take than 16 bits can say ends where the file does.
   if (last == kManyFrames && data < file.size()) frames = (file.size() - data) / frame_bytes;
 
+  if (data > file.size() || (file.size() - data) / frame_bytes < frames) {
+    file.Refuse("cut short: " + std::to_string(frames) + " frames of " + std::to_string(frame_bytes) +
+                " bytes are announced");
+  }
+
   for (std::size_t f = 0; f < frames; ++f) {
     std::vector<Point3> frame;
     for (std::size_t m = 0; m < points; ++m) {

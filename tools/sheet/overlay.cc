@@ -27,12 +27,12 @@ const cv::Scalar kContour{236, 255, 214};
 
 }  // namespace
 
-void DrawLandmarks(const Landmarks& landmarks, const cv::Rect2d& box, Canvas& canvas) {
-  if (landmarks.count < kMeshLandmarks || landmarks.width_px <= 0 || landmarks.height_px <= 0) return;
+void DrawLandmarks(const Landmarks& landmarks, cv::Point2d origin, cv::Size2d zoom, Canvas& canvas) {
+  if (landmarks.count < kMeshLandmarks) return;
   const auto at = [&](std::size_t i) {
     const Point3& p = landmarks.points_px[i];
-    return cv::Point2d{box.x + box.width * static_cast<double>(p.x) / landmarks.width_px,
-                       box.y + box.height * static_cast<double>(p.y) / landmarks.height_px};
+    return cv::Point2d{origin.x + zoom.width * static_cast<double>(p.x),
+                       origin.y + zoom.height * static_cast<double>(p.y)};
   };
   for (std::size_t i = 0; i < kMeshLandmarks; ++i) canvas.Disc(at(i), 0.9, palette::kTrack);
   const auto outline = [&](const auto& indices, double width_px) {
@@ -41,10 +41,10 @@ void DrawLandmarks(const Landmarks& landmarks, const cv::Rect2d& box, Canvas& ca
     canvas.Stroke(line, kContour, width_px, true);
   };
   outline(kFaceOutline, 1.0);
-  outline(kOuterLips, 1.5);
+  outline(kOuterLips, 1.0);
   outline(kInnerLips, 1.0);
-  outline(kRightEye, 1.5);
-  outline(kLeftEye, 1.5);
+  outline(kRightEye, 1.0);
+  outline(kLeftEye, 1.0);
   outline(kRightBrow, 1.0);
   outline(kLeftBrow, 1.0);
   if (landmarks.count < kMaxLandmarks) return;

@@ -91,12 +91,25 @@ void DrawBars(const Rig& rig, const Moment& moment, std::span<const std::size_t>
   }
 }
 
-// The largest box of the picture's shape in the middle of `box`.
-cv::Rect2d Fit(const cv::Mat& picture, const cv::Rect2d& box) {
-  const double scale = std::min(box.width / picture.cols, box.height / picture.rows);
-  const cv::Size2d size{std::floor(picture.cols * scale), std::floor(picture.rows * scale)};
-  return {std::floor(box.x + (box.width - size.width) / 2), std::floor(box.y + (box.height - size.height) / 2),
-          size.width, size.height};
+// The part of a picture that a window of kPictureWidth x kPictureHeight shows: the face with some air
+// around it, or, without a face, the middle.
+cv::Rect View(const cv::Mat& picture, const Landmarks& landmarks) {
+  constexpr double kAir = 1.5;  // height of the view in heights of the face
+  constexpr double kShape = kPictureWidth / kPictureHeight;
+  double height = picture.rows;
+  cv::Point2d centre(picture.cols / 2.0, picture.rows / 2.0);
+  if (landmarks.count > 0) {
+    const std::span points(landmarks.points_px.data(), landmarks.count);
+    const auto [left, right] = std::ranges::minmax(points, {}, &Point3::x);
+    const auto [top, bottom] = std::ranges::minmax(points, {}, &Point3::y);
+    height = kAir * static_cast<double>(bottom.y - top.y);
+    centre = {static_cast<double>(left.x + right.x) / 2, static_cast<double>(top.y + bottom.y) / 2};
+  }
+  height = std::clamp(height, 16.0, std::min<double>(picture.rows, picture.cols / kShape));
+  const double width = height * kShape;
+  return {cv::Point(cv::Point2d(std::clamp(centre.x - width / 2, 0.0, picture.cols - width),
+                                std::clamp(centre.y - height / 2, 0.0, picture.rows - height))),
+          cv::Size(cv::Size2d(std::floor(width), std::floor(height)))};
 }
 
 void DrawRow(const Rig& rig, const Moment& moment, const std::array<std::vector<std::size_t>, 2>& channels,
@@ -105,9 +118,12 @@ void DrawRow(const Rig& rig, const Moment& moment, const std::array<std::vector<
   const cv::Rect2d window{row.x + kInset, row.y + kInset, kPictureWidth, kPictureHeight};
   canvas.Box(window, 6, palette::kInk);
   if (!moment.picture.empty()) {
-    const cv::Rect2d picture = Fit(moment.picture, window);
-    canvas.Picture(moment.picture, picture);
-    DrawLandmarks(moment.landmarks, picture, canvas);
+    const cv::Rect view = View(moment.picture, moment.landmarks);
+    canvas.Picture(moment.picture(view), window);
+    const double zoom_x = window.width / view.width;
+    const double zoom_y = window.height / view.height;
+    DrawLandmarks(moment.landmarks, {window.x - view.x * zoom_x, window.y - view.y * zoom_y},
+                  {zoom_x, zoom_y}, canvas);
   }
   DrawCharacter(CharacterPoseOf(rig, moment.pose),
                 {row.x + kCharacterX, row.y + kInset, kCharacterWidth, kPictureHeight}, canvas);

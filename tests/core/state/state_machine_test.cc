@@ -55,6 +55,7 @@ class Context {
   static constexpr Inputs kSilence{.sight = Sight::kSilent};
   static constexpr Inputs kStop{.sight = Sight::kFace, .stop = true};
   static constexpr Inputs kRelease{.sight = Sight::kFace, .release = true};
+  static constexpr Inputs kRest{.sight = Sight::kFace, .rest = true};
   static constexpr Inputs kQuit{.sight = Sight::kFace, .quit = true};
   static constexpr Inputs kLineGone{.sight = Sight::kFace, .line_gone = true};
 
@@ -134,6 +135,11 @@ TEST(StateMachine, FollowsTheTransitionTable) {
        S::kStopped,
        "no motion on the way out"},
       {S::kTracking, {.release = true}, kTick, S::kHolding, "a release without a stop is nothing"},
+      {S::kTracking, C::kRest, kTick, S::kEasing, "asked to rest: at once, without holding"},
+      {S::kHolding, C::kRest, kTick, S::kEasing, "asked to rest"},
+      {S::kSearching, C::kRest, kTick, S::kSearching, "neutral already; the face does not count"},
+      {S::kSearching, C::kRest, milliseconds(2100), S::kResting, "and at last the torque goes"},
+      {S::kResting, C::kRest, milliseconds(9000), S::kResting, "as long as it is asked for"},
       {S::kTracking, C::kQuit, kTick, S::kEasing, "leaves at neutral"},
       {S::kHolding, C::kQuit, kTick, S::kEasing, "leaves at neutral"},
       {S::kResting, C::kQuit, kTick, S::kResting, "limp servos stay limp"},
