@@ -3,9 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <atomic>
 #include <cctype>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -15,10 +13,12 @@
 
 #include "app/error.h"
 #include "hal/pty/pty_port.h"
+#include "hal/serialport/serialport_port.h"
 #include "hal/system_clock.h"
 #include "tools/facewire/commands.h"
 #include "tools/facewire/monitor_recorder.h"
 #include "tools/facewire/monitor_session.h"
+#include "tools/facewire/stop_flag.h"
 #include "tools/facewire/stream_port.h"
 
 namespace facewire::tools {
@@ -36,21 +36,6 @@ struct Options {
   bool ascii = false;
   bool listen = false;
 };
-
-std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
-
-extern "C" void Interrupt(int) { interrupted = true; }
-
-// The first signal ends the session with its summary; the second one ends the program as usual.
-void CatchSignals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    struct sigaction action {};
-    action.sa_handler = Interrupt;
-    action.sa_flags = SA_RESETHAND;
-    sigaction(signal, &action, nullptr);
-  }
-}
 
 void WriteOut(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stdout);
@@ -88,17 +73,20 @@ bool LocaleIsUtf8() {
   return false;
 }
 
-std::unique_ptr<hal::SerialPort> MakePort(const Options& options) {
-  const std::string& path = options.port;
+std::unique_ptr<hal::SerialPort> MakePort(const std::string& path, int baud) {
   struct stat status {};
-  if (path == "-") return std::make_unique<StreamPort>(path);
-  if (stat(path.c_str(), &status) == 0 && (S_ISREG(status.st_mode) || S_ISFIFO(status.st_mode))) {
+  const bool exists = stat(path.c_str(), &status) == 0;
+  if (path == "-" || (exists && (S_ISREG(status.st_mode) || S_ISFIFO(status.st_mode)))) {
     return std::make_unique<StreamPort>(path);
   }
-  return std::make_unique<hal::pty::PtyPort>(path);
+  if (hal::pty::IsPseudoTerminal(path).value_or(false)) {
+    return std::make_unique<hal::pty::PtyPort>(path);
+  }
+  return std::make_unique<hal::serialport::SerialportPort>(
+      hal::serialport::SerialportConfig{.path = path, .baud = baud});
 }
 
-void OpenPort(hal::SerialPort& port, const std::string& path) {
+void OpenPort(hal::SerialPort& port, const std::string& path, int baud) {
   const auto opened = port.Open();
   if (opened) return;
   switch (opened.error()) {
@@ -110,7 +98,8 @@ void OpenPort(hal::SerialPort& port, const std::string& path) {
       throw app::BadInput("no permission to open " + path +
                           "; `facewire doctor` says which group you need to be in");
     case Errc::kUnsupported:
-      throw app::BadInput(path + " is not a serial line; give a tty, a pty, a file, a FIFO or -");
+      throw app::BadInput(path + " is not a serial line that can do " + std::to_string(baud) +
+                          " baud; give a tty, a pty, a file, a FIFO or -");
     default:
       throw app::Failure("opening " + path + ": " + Name(opened.error()));
   }
@@ -127,9 +116,10 @@ void RequireFrames(const MonitorModel& model, MonitorEnd end) {
 
 void Monitor(const Options& options) {
   std::optional<MonitorRecorder> recorder;
-  const auto port = MakePort(options);
-  OpenPort(*port, options.port);
-  CatchSignals();
+  const auto port = MakePort(options.port, options.baud);
+  OpenPort(*port, options.port, options.baud);
+  // Before the recorder: it would otherwise end the program on a signal.
+  const StopFlag stop;
   if (!options.csv.empty()) recorder.emplace(options.csv, MonitorRecorder::Form::kCsv);
   if (!options.jsonl.empty()) recorder.emplace(options.jsonl, MonitorRecorder::Form::kJsonl);
 
@@ -160,12 +150,12 @@ void Monitor(const Options& options) {
   {
     std::optional<FullScreen> screen;
     if (display.kind == MonitorDisplay::Kind::kScreen) screen.emplace();
-    end = session->Run(limits, interrupted);
+    end = session->Run(limits, [&] { return stop.Raised(); });
   }
   const MonitorModel& model = session->model();
+  RequireFrames(model, end);
   WriteOut(SummaryText(model));
   if (end == MonitorEnd::kClosed) WriteOut("the other side closed the line\n");
-  RequireFrames(model, end);
   if (recorder) {
     recorder->Finish(model.rig);
     WriteOut(std::to_string(recorder->recorded()) + " poses recorded in " + options.csv +

@@ -26,7 +26,7 @@ MonitorSession::MonitorSession(std::string port_name, hal::SerialPort& port, hal
   model_.port = std::move(port_name);
 }
 
-MonitorEnd MonitorSession::Run(const MonitorLimits& limits, const std::atomic<bool>& stop) {
+MonitorEnd MonitorSession::Run(const MonitorLimits& limits, const std::function<bool()>& stop) {
   const Time began = clock_.Now();
   next_question_ = began;
   next_show_ =
@@ -35,7 +35,7 @@ MonitorEnd MonitorSession::Run(const MonitorLimits& limits, const std::atomic<bo
   for (;;) {
     const Time now = clock_.Now();
     model_.elapsed_s = static_cast<double>((now - began).count()) * 1e-6;
-    if (stop) return MonitorEnd::kInterrupted;
+    if (stop()) return MonitorEnd::kInterrupted;
     if (limits.seconds && model_.elapsed_s >= *limits.seconds) return MonitorEnd::kTime;
     if (limits.may_write) AskForRig(now);
     Show(now);

@@ -1,7 +1,6 @@
 #ifndef FACEWIRE_TOOLS_FACEWIRE_MONITOR_SESSION_H_
 #define FACEWIRE_TOOLS_FACEWIRE_MONITOR_SESSION_H_
 
-#include <atomic>
 #include <functional>
 #include <optional>
 #include <string>
@@ -45,9 +44,9 @@ class MonitorSession {
   MonitorSession(std::string port_name, hal::SerialPort& port, hal::Clock& clock,
                  MonitorDisplay display, MonitorRecorder* recorder);
 
-  // Returns when a limit is reached, `stop` becomes true, the file ends or the line closes. Throws
-  // Failure when reading fails in another way.
-  MonitorEnd Run(const MonitorLimits& limits, const std::atomic<bool>& stop);
+  // Returns when a limit is reached, `stop` (asked 50 times a second) says so, the file ends or the
+  // line closes. Throws Failure when reading fails in another way.
+  MonitorEnd Run(const MonitorLimits& limits, const std::function<bool()>& stop);
 
   const MonitorModel& model() const noexcept { return model_; }
 

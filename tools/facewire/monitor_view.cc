@@ -131,7 +131,7 @@ std::string StateLine(const MonitorModel& m, int columns, ScreenStyle style) {
   line.Add(Padded(RateText(m), 10, false));
   if (m.pose) {
     line.Add(Format(" latency %.0f ms", m.pose->age_us / 1000.0));
-    line.Add(Format(" (p50 %d p99 %d)", m.ages.Quantile(0.5), m.ages.Quantile(0.99)), kDim);
+    line.Add(Format("  p50 %d  p99 %d", m.ages.Quantile(0.5), m.ages.Quantile(0.99)), kDim);
     line.Add(Format("  frame %u", m.pose->frame_seq));
   }
   return line.text();
@@ -182,11 +182,11 @@ struct CellWidths {
 
 constexpr int kFrameRows = 6;       // title, state, line, device, a blank one before and one after
 constexpr int kNarrowestCell = 38;  // a name, a bar and a value that can be read
-constexpr int kValueWidth = 9;
+constexpr int kValueWidth = 10;
 
 CellWidths WidthsFor(int cell_columns, int longest_name) {
   // Blank, name, blank, bar in its two ends, blank, value.
-  const int name = std::clamp(std::min(longest_name, cell_columns / 2 - 7), 4, 24);
+  const int name = std::clamp(std::min(longest_name, cell_columns / 2 - 5), 4, 24);
   return {name, kValueWidth, std::max(4, cell_columns - name - kValueWidth - 5)};
 }
 
