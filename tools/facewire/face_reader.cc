@@ -80,7 +80,7 @@ void AddFaceOptions(CLI::App& command, FaceOptions& options) {
 std::filesystem::path NetworksFolder(const std::string& chosen) {
   if (!chosen.empty()) return chosen;
   if (const char* set = std::getenv("FACEWIRE_NETWORKS"); set != nullptr && *set != '\0') return set;
-  const std::filesystem::path installed = FACEWIRE_INSTALLED_NETWORKS;
+  const std::filesystem::path installed = FACEWIRE_INSTALLED_SHARE "/networks";
   const std::filesystem::path unpacked = FACEWIRE_ASSETS "/networks";
   return !std::filesystem::exists(installed) && std::filesystem::exists(unpacked) ? unpacked : installed;
 }

@@ -64,7 +64,7 @@ void Track(const TrackOptions& options) {
     auto face = reader.Track();
     if (filter && face) {
       face = filter->Update(*face);
-      if (!face) reader.Lose();
+    
     }
     if (filter && !face) filter->Reset();
     ++frames;
