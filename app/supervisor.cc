@@ -47,16 +47,16 @@ Supervisor::Supervisor() noexcept {
 
 void Supervisor::Reloading(Time now) noexcept {
   std::array<char, 80> text;
-  const int size =
-      std::snprintf(text.data(), text.size(), "RELOADING=1\nMONOTONIC_USEC=%lld",
-                    static_cast<long long>(now.time_since_epoch().count()));
+  const int size = std::snprintf(text.data(), text.size(), "RELOADING=1\nMONOTONIC_USEC=%lld",
+                                 static_cast<long long>(now.time_since_epoch().count()));
   Send({text.data(), static_cast<std::size_t>(size)});
 }
 
 void Supervisor::Status(std::string_view text) noexcept {
   std::array<char, 256> message;
-  const int size = std::snprintf(message.data(), message.size(), "STATUS=%.*s",
-                                 static_cast<int>(std::min<std::size_t>(text.size(), 200)), text.data());
+  const int size =
+      std::snprintf(message.data(), message.size(), "STATUS=%.*s",
+                    static_cast<int>(std::min<std::size_t>(text.size(), 200)), text.data());
   Send({message.data(), static_cast<std::size_t>(size)});
 }
 

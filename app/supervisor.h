@@ -8,9 +8,10 @@
 
 namespace facewire::app {
 
-// Talks to systemd (sd_notify(3), "Notify protocol": datagrams to the socket that NOTIFY_SOCKET names).
-// Without a supervisor every call does nothing. libsystemd is not used because it opens a socket for
-// every message; here one stays open, so the running service neither allocates nor opens files.
+// Talks to systemd (sd_notify(3), "Notify protocol": datagrams to the socket that NOTIFY_SOCKET
+// names). Without a supervisor every call does nothing. libsystemd is not used because it opens a
+// socket for every message; here one stays open, so the running service neither allocates nor opens
+// files.
 class Supervisor {
  public:
   // Reads NOTIFY_SOCKET, WATCHDOG_USEC and WATCHDOG_PID.
