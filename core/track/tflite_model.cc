@@ -11,6 +11,8 @@ namespace {
 // Far above what the networks have, far below what overflows an int.
 constexpr std::size_t kMaxElements = std::size_t{1} << 24;
 constexpr int kMaxDimension = 1 << 16;
+// Numbers are read in place; the format's largest has eight bytes.
+constexpr std::size_t kAlignment = 8;
 
 using Indices = flatbuffers::Vector<std::int32_t>;
 
@@ -151,6 +153,8 @@ std::span<const std::byte> Bytes(const flatbuffers::Vector<std::uint8_t>* bytes)
 }  // namespace
 
 Result<TfliteModel> TfliteModel::Parse(std::span<const std::byte> file) noexcept {
+  if (reinterpret_cast<std::uintptr_t>(file.data()) % kAlignment != 0)
+    return Errc::kInvalidArgument;
   // The verifier accepts tables up to this deep and this many: enough for 712 operators.
   flatbuffers::Verifier verifier(reinterpret_cast<const std::uint8_t*>(file.data()), file.size(),
                                  /*max_depth=*/16, /*max_tables=*/10000);

@@ -57,7 +57,8 @@ struct Operator {
 // in range and constant data has the size of its tensor. Allocates nothing; the bytes must stay.
 class TfliteModel {
  public:
-  // kCorrupt when the bytes are not such a file.
+  // kCorrupt when the bytes are not such a file; kInvalidArgument when they do not start at a
+  // multiple of eight.
   static Result<TfliteModel> Parse(std::span<const std::byte> file) noexcept;
 
   int tensor_count() const noexcept;

@@ -25,7 +25,7 @@ bool IsFraction(float v) noexcept { return v >= 0.0F && v <= 1.0F; }
 }  // namespace
 
 std::size_t Tracker::RequiredBytes(Model model) noexcept {
-  return BlockBytes(model) + kAlignment;  // the arena's next free byte may lie anywhere
+  return BlockBytes(model) + kAlignment - 1;  // the arena's next free byte may lie anywhere
 }
 
 Result<> Tracker::Load(const TrackerConfig& config, const NetworkFiles& files,

@@ -27,7 +27,8 @@ struct TrackerConfig {
   float min_presence = 0.5F;  // of the landmark network, 0..1; below it the face counts as lost
 };
 
-// The contents of the .tflite files (checked by whoever read them). Borrowed during Load only.
+// The contents of the .tflite files (checked by whoever read them), each starting at a multiple of
+// eight bytes, as vectors do. Borrowed during Load only.
 struct NetworkFiles {
   std::span<const std::byte> detector;  // face_detection_short_range
   std::span<const std::byte>

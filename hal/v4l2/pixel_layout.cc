@@ -17,7 +17,7 @@ constexpr Pair kPairs[] = {
 
 // A picture of a size that no camera has is a damaged answer, and its bytes must not overflow an
 // int.
-constexpr int kMaxSide_px = 16384;
+constexpr int kMaxSidePx = 16384;
 
 int BytesPerPixel(PixelFormat format) noexcept {
   switch (format) {
@@ -69,7 +69,7 @@ ImageView PixelLayout::At(const std::uint8_t* buffer) const noexcept {
 
 Result<PixelLayout> LayOut(PixelFormat format, int width_px, int height_px,
                            std::uint32_t stride_bytes) noexcept {
-  if (width_px <= 0 || height_px <= 0 || width_px > kMaxSide_px || height_px > kMaxSide_px) {
+  if (width_px <= 0 || height_px <= 0 || width_px > kMaxSidePx || height_px > kMaxSidePx) {
     return Errc::kUnsupported;
   }
   const bool planar = format == PixelFormat::kNv12 || format == PixelFormat::kI420;
@@ -77,7 +77,7 @@ Result<PixelLayout> LayOut(PixelFormat format, int width_px, int height_px,
   if (planar && height_px % 2 != 0) return Errc::kUnsupported;
   const int row_bytes = width_px * BytesPerPixel(format);
   const int stride = stride_bytes == 0 ? row_bytes : static_cast<int>(stride_bytes);
-  if (stride_bytes > 4U * kMaxSide_px || stride < row_bytes) return Errc::kUnsupported;
+  if (stride_bytes > 4U * kMaxSidePx || stride < row_bytes) return Errc::kUnsupported;
 
   PixelLayout layout;
   layout.view.format = format;

@@ -226,9 +226,9 @@ TEST(Service, DescribesTheRigEveryFewSecondsForHostsThatJoinLater) {
 
 TEST(Service, SendsAStatusOnceASecond) {
   ServiceContext c;
-  c.For(seconds(10));
-  EXPECT_GE(c.statuses.size(), 10U);
-  EXPECT_LE(c.statuses.size(), 11U);
+  c.For(seconds(4));
+  EXPECT_GE(c.statuses.size(), 4U);
+  EXPECT_LE(c.statuses.size(), 5U);
   EXPECT_NEAR(c.statuses.back().centi_fps, 3000, 110);
   EXPECT_EQ(c.statuses.back().state, S::kSearching);
 }
@@ -260,7 +260,6 @@ TEST(Service, NeverSendsHalfAFrameWhenTheLineIsFull) {
   c.port.AcceptAll();
   c.For(seconds(1));
   EXPECT_EQ(c.host_decoder.stats().Damaged(), 0U);
-  EXPECT_GT(c.host_decoder.stats().lost, 0U) << "the host can tell from the numbers";
   EXPECT_EQ(c.last_pose.state, S::kTracking);
 }
 
@@ -271,6 +270,10 @@ TEST(Service, KeepsItsRateWhenTheLineTakesNothing) {
   const std::uint64_t before = c.service->stats().frames;
   c.For(seconds(2));
   EXPECT_GE(c.service->stats().frames - before, 59U);
+  c.port.AcceptAll();
+  c.For(seconds(1));
+  EXPECT_GE(c.host_decoder.stats().lost, 59U) << "the host can tell from the numbers";
+  EXPECT_EQ(c.host_decoder.stats().Damaged(), 0U);
 }
 
 TEST(Service, GoesOnWithoutALine) {

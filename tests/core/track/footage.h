@@ -29,6 +29,9 @@ class Picture {
   // Black; `padding` bytes behind each row, which hold a value that no test may see.
   Picture(PixelFormat format, int width, int height, int padding = 0,
           YuvEncoding encoding = YuvEncoding::kBt601Limited);
+  // The view points into the pixels, which stay where they are in a move.
+  Picture(Picture&&) = default;
+  Picture& operator=(Picture&&) = default;
 
   const ImageView& view() const { return view_; }
   Frame frame(std::uint64_t seq = 0) const { return {.seq = seq, .captured = {}, .image = view_}; }
