@@ -67,7 +67,8 @@ class TemporaryFile {
 // The rename itself is only on the disk when the folder is.
 void SyncFolder(const std::filesystem::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;  // a folder that may be written but not read: nothing more can be done
+  if (descriptor < 0)
+    return;  // a folder that may be written but not read: nothing more can be done
   ::fsync(descriptor);
   ::close(descriptor);
 }
@@ -80,8 +81,7 @@ std::vector<std::byte> ReadWhole(const FileKind& kind, const std::filesystem::pa
   if (!std::filesystem::is_regular_file(status))
     throw BadInput(path.string() + ": not a file; expected a " + std::string(kind.noun));
   std::ifstream in(path, std::ios::binary);
-  if (!in)
-    throw BadInput(path.string() + ": cannot be opened: " + std::strerror(errno));
+  if (!in) throw BadInput(path.string() + ": cannot be opened: " + std::strerror(errno));
   const std::vector<char> text{std::istreambuf_iterator<char>(in), {}};
   const auto bytes = std::as_bytes(std::span(text));
   return {bytes.begin(), bytes.end()};

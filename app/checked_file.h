@@ -11,17 +11,17 @@
 
 namespace facewire::app {
 
-// Writes the whole file or nothing: to a temporary file in the same folder, flushed to the disk, then
-// renamed over `path`. A reader, or a board that loses power, sees the old file or the new one.
-// Failure: says which step failed and why.
+// Writes the whole file or nothing: to a temporary file in the same folder, flushed to the disk,
+// then renamed over `path`. A reader, or a board that loses power, sees the old file or the new
+// one. Failure: says which step failed and why.
 void WriteFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 // What distinguishes one kind of facewire's binary files from another.
 struct FileKind {
   std::string_view magic;  // 8 characters
   std::uint32_t version;
-  std::string_view noun;     // "profile", for messages
-  std::string_view remedy;   // what makes a good one: "make it again with facewire train"
+  std::string_view noun;    // "profile", for messages
+  std::string_view remedy;  // what makes a good one: "make it again with facewire train"
 };
 
 // The frame that facewire's own binary files share (byte by byte in app/README.md): magic, version,

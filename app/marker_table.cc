@@ -80,12 +80,12 @@ NumberTable ReadNumberTable(const std::filesystem::path& path) {
     if (Trimmed(line).empty()) continue;
     const std::vector<std::string_view> fields = Split(line);
     if (fields.size() != expected)
-      throw BadInput(Where(path, number) + std::to_string(fields.size()) + " columns, but line 1 has " +
-                     std::to_string(expected));
+      throw BadInput(Where(path, number) + std::to_string(fields.size()) +
+                     " columns, but line 1 has " + std::to_string(expected));
     for (std::size_t c = 0; c < fields.size(); ++c)
       if (wanted[c])
-        table.values.push_back(ToNumber(
-            fields[c], Where(path, number) + "column " + std::to_string(c + 1) + ": "));
+        table.values.push_back(
+            ToNumber(fields[c], Where(path, number) + "column " + std::to_string(c + 1) + ": "));
     table.lines.push_back(number);
   }
   if (table.lines.empty()) throw BadInput(path.string() + ": no rows below the column names");

@@ -27,8 +27,9 @@ struct MarkerTable {
   std::size_t rows() const { return lines.size(); }
 };
 
-// BadInput, one line with file, line and column: missing file, no columns, no rows, a row of another
-// length, something that is not a finite number, a name twice or one that facewire cannot carry.
+// BadInput, one line with file, line and column: missing file, no columns, no rows, a row of
+// another length, something that is not a finite number, a name twice or one that facewire cannot
+// carry.
 NumberTable ReadNumberTable(const std::filesystem::path& path);
 MarkerTable ReadMarkerTable(const std::filesystem::path& path);
 

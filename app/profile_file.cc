@@ -19,10 +19,9 @@ std::string Describe(const TrainingSet& training, Errc code,
                      const retarget::TrainingReport& report) {
   const auto row = [](std::size_t index) { return std::to_string(index + 1); };
   const rbf::FitReport& fit = report.fit;
-  const std::string region =
-      report.region < training.regions.size()
-          ? "in region " + Quoted(training.regions[report.region].name) + " "
-          : "";
+  const std::string region = report.region < training.regions.size()
+                                 ? "in region " + Quoted(training.regions[report.region].name) + " "
+                                 : "";
   if (fit.duplicate_first && fit.duplicate_second)
     return region + "rows " + row(*fit.duplicate_first) + " and " + row(*fit.duplicate_second) +
            " have the same markers; leave one out, or allow smoothing";

@@ -12,8 +12,8 @@
 
 namespace facewire::app {
 
-// Everything that a .profile holds: the example pairs and how to fit them, not the fitted weights, so a
-// profile stays good when the solver changes. Shapes as in retarget::Training.
+// Everything that a .profile holds: the example pairs and how to fit them, not the fitted weights,
+// so a profile stays good when the solver changes. Shapes as in retarget::Training.
 struct TrainingSet {
   std::vector<ShortName> markers, signals;
   std::vector<float> samples, targets;
