@@ -23,8 +23,9 @@ class Crc32 {
   constexpr std::uint32_t value() const noexcept { return ~register_; }
 
  private:
-  // Half a byte at a time: a table of 64 bytes, the size that small receivers use too. A frame of
-  // 64 channels costs well under a microsecond a step even so (tests/bench/wire_bench.cc).
+  // Half a byte at a time: a table of 64 bytes, which small receivers can afford too. All of a
+  // 64-channel pose, this included, takes microseconds (tests/bench/wire_bench.cc): no larger table
+  // is needed.
   static constexpr std::array<std::uint32_t, 16> kTable = [] {
     std::array<std::uint32_t, 16> table{};
     for (std::uint32_t i = 0; i < 16; ++i) {

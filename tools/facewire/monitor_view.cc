@@ -118,7 +118,15 @@ std::string TitleLine(const MonitorModel& m, int columns, ScreenStyle style) {
     rig = "waiting for the rig description";
   }
   Line line(columns, style);
-  line.Add(" facewire monitor", kBold).Add("  " + m.port, kDim);
+  // Of a long path the end tells ports apart.
+  constexpr int kTitle = 17;
+  const int room = std::max(columns - kTitle - Width(rig) - 5, 8);
+  std::string port = m.port;
+  if (Width(port) > room) {
+    port =
+        (style.unicode ? "…" : "~") + port.substr(port.size() - static_cast<std::size_t>(room) + 1);
+  }
+  line.Add(" facewire monitor", kBold).Add("  " + port, kDim);
   line.Add("  ").FillTo(Width(rig) + 1).Add(rig, described ? kBold : kYellow);
   return line.text();
 }

@@ -28,10 +28,12 @@ std::vector<Message> OneOfEach() {
           Acknowledgement{}, Command{}};
 }
 
+// The bytes in core/wire/README.md, "Examples".
 TEST(Encoder, TheExampleOfTheSpecificationIsWhatItWrites) {
   Encoder encoder;
-  EXPECT_EQ(EncodeToBytes(encoder, Command{.id = 0x0102, .code = CommandCode::kPing}),
-            RawFrame(1, 0x80, 0, MakeBytes({0x02, 0x01, 0x01})));
+  const Bytes example = MakeBytes(
+      {0x00, 0x03, 0x01, 0x80, 0x01, 0x02, 0x01, 0x06, 0x01, 0xB3, 0x9A, 0x6E, 0x53, 0x00});
+  EXPECT_EQ(EncodeToBytes(encoder, Command{.id = 1, .code = CommandCode::kPing}), example);
 }
 
 TEST(Encoder, EveryMessageFitsABufferOfExactlyItsSizeAndNoneSmaller) {
