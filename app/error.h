@@ -6,7 +6,8 @@
 
 namespace facewire::app {
 
-// Starting up and the operator's commands report by exception; core, hal and the running service do not.
+// Starting up and the operator's commands report by exception; core, hal and the running service do
+// not.
 
 // What the person gave is wrong: says what, where, and what would be right. Exit code 2.
 class BadInput : public std::runtime_error {

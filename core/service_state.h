@@ -8,7 +8,7 @@ namespace facewire {
 // What the service is doing. The numbers are those of the wire (core/wire/README.md): append only.
 enum class ServiceState : std::uint8_t {
   kStarting = 0,   // building, ramping from the servos' position to neutral
-  kSearching = 1,  // no face since the start, or since Resting; the rig is neutral
+  kSearching = 1,  // no face; the rig is neutral
   kTracking = 2,   // the rig follows a face
   kHolding = 3,    // the face was just lost: the last pose is kept for a short while
   kEasing = 4,     // on the way to neutral

@@ -14,7 +14,11 @@ inline constexpr std::size_t kMaxChannels = 192;         // values in one RigPos
 inline constexpr std::size_t kMaxDrives = 8;             // signals that add up to one channel
 inline constexpr std::size_t kMaxSignals = 96;           // outputs of the expression mapping
 inline constexpr std::size_t kMaxExpressionInputs = 384;  // 3 x landmarks that a profile reads
+inline constexpr std::size_t kMaxMarkers = kMaxExpressionInputs / 3;
 inline constexpr std::size_t kMaxTrainingSamples = 1024;
+inline constexpr std::size_t kMaxRegions = 16;           // of the face, in one profile
+inline constexpr std::size_t kMaxRegionDistances = 32;   // marker pairs that one region reads
+inline constexpr std::size_t kMaxNeutralFrames = 128;    // of which a neutral is the median
 inline constexpr std::size_t kMaxNameLength = 31;
 inline constexpr std::size_t kMaxWirePayload = 1024;     // bytes of one message before COBS
 

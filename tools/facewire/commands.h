@@ -13,6 +13,7 @@ void AddTrack(CLI::App& facewire);
 void AddRetarget(CLI::App& facewire);
 void AddTrain(CLI::App& facewire);
 void AddMonitor(CLI::App& facewire);
+void AddSheet(CLI::App& facewire);
 void AddDoctor(CLI::App& facewire);
 
 }  // namespace facewire::tools

@@ -1,0 +1,365 @@
+#include "app/application.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <utility>
+
+#include "app/devices.h"
+#include "app/error.h"
+#include "app/networks.h"
+#include "app/neutral_file.h"
+#include "app/rig_file.h"
+#include "core/wire/rig_description.h"
+#include "hal/fake/fake_camera.h"
+#include "hal/replay/replay_camera.h"
+
+namespace facewire::app {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+// The address of the recording or camera.
+std::string CameraAddress(const CameraConfig& camera, bool fake) {
+  if (!fake && camera.device != "replay") return camera.device;
+  return camera.replay.file.empty() ? "" : "replay:" + camera.replay.file.string();
+}
+
+// The address of the line; "" for none. Mock hardware is a pseudo-terminal, with the link that the
+// configuration gives or without one.
+std::string LineAddress(const HostConfig& host, const ApplicationOptions& options) {
+  if (options.read_only || host.line == "none") return "";
+  return options.fake && !host.line.starts_with("pty:") ? "pty:" : host.line;
+}
+
+CameraOptions CameraOptionsOf(const CameraConfig& camera) {
+  CameraOptions options;
+  options.width_px = camera.width_px;
+  options.height_px = camera.height_px;
+  options.fps = camera.fps;
+  options.pace =
+      camera.replay.pace == ReplayConfig::Pace::kFast ? hal::Pace::kFast : hal::Pace::kRealTime;
+  switch (camera.replay.loop) {
+    case ReplayConfig::Loop::kNone:
+      options.loop = hal::LoopMode::kNone;
+      break;
+    case ReplayConfig::Loop::kRestart:
+      options.loop = hal::LoopMode::kRestart;
+      break;
+    case ReplayConfig::Loop::kPingPong:
+      options.loop = hal::LoopMode::kPingPong;
+      break;
+  }
+  options.memory_bytes = static_cast<std::size_t>(camera.replay.memory_mib) << 20U;
+  return options;
+}
+
+std::vector<std::string> SignalNames(const Profile* profile) {
+  std::vector<std::string> names;
+  if (profile == nullptr) return names;
+  for (const ShortName& signal : profile->mapping().signals()) names.emplace_back(signal.view());
+  return names;
+}
+
+// One line to the journal; never more than once a second from the loop. Does not allocate.
+void Log(const char* text) noexcept {
+  std::array<char, 512> line;
+  const int size = std::snprintf(line.data(), line.size(), "facewired: %s\n", text);
+  if (size <= 0) return;
+  const auto shown = std::min(static_cast<std::size_t>(size), line.size() - 1);
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), shown);
+}
+
+// Calls `part`; what is wrong with it joins what was wrong before.
+template <class Part>
+void Collect(std::string& problems, Part part) {
+  try {
+    part();
+  } catch (const BadInput& e) {
+    if (!problems.empty()) problems += '\n';
+    problems += e.what();
+  }
+}
+
+}  // namespace
+
+Application::Application(const ApplicationOptions& options, hal::Clock& clock)
+    : options_(options),
+      clock_(clock),
+      config_(LoadConfig(options.config)),
+      path_({.tracker = config_.tracker.tracker, .filter = config_.filter, .pose = config_.pose}),
+      camera_address_(CameraAddress(config_.camera, options.fake)),
+      line_address_(LineAddress(config_.host, options)) {
+  Build();
+}
+
+// In the order in which the parts lie in the block.
+void Application::Build() {
+  const track::Model model = config_.tracker.tracker.model;
+  const std::size_t character_bytes = retarget::Retargeter::RequiredBytes();
+  const std::size_t capture_bytes = retarget::NeutralCapture::RequiredBytes();
+  constexpr std::size_t kAlignment = 64;  // what rounding up each part may take
+  block_bytes_ =
+      FramePath::RequiredBytes(model) + 2 * character_bytes + capture_bytes + 5 * kAlignment;
+  block_ = std::make_unique<std::byte[]>(block_bytes_);  // zeroed: every page is there from now on
+  arena_.emplace(std::span(block_.get(), block_bytes_));
+
+  std::string problems;
+  Collect(problems, [&] {
+    const Networks networks = LoadNetworks(config_.tracker.networks, model);
+    const Result<> loaded = path_.Load(networks.files(), *arena_);
+    if (loaded) return;
+    const std::string line = "the networks in " + config_.tracker.networks.string() + ": ";
+    if (loaded.error() == Errc::kCorrupt) throw BadInput(line + Name(loaded.error()));
+    throw Failure(line + Name(loaded.error()));
+  });
+  bool have_profile = true;
+  Collect(problems, [&] {
+    have_profile = false;
+    if (!config_.character.profile.empty()) profile_ = LoadProfile(config_.character.profile);
+    have_profile = true;
+  });
+  for (std::span<std::byte>& memory : character_memory_) {
+    memory = {static_cast<std::byte*>(arena_->Allocate(character_bytes, kAlignment)),
+              character_bytes};
+    if (memory.data() == nullptr) throw Failure("the block of memory is too small");
+  }
+  Collect(problems, [&] {
+    // Without the profile its signals are unknown, and complaining about each would hide the cause.
+    if (have_profile) {
+      BuildCharacter(config_, characters_[running_], character_memory_[running_]);
+    } else {
+      (void)LoadRig(config_.character.rig);
+    }
+  });
+  retarget::NeutralCaptureConfig capture;
+  if (config_.neutral.auto_s > 0) {
+    capture.duration = milliseconds(static_cast<int>(1000 * config_.neutral.auto_s));
+  }
+  if (const Result<> ok = capture_.Configure(capture, *arena_); !ok) {
+    throw Failure(std::string("preparing the neutral's capture: ") + Name(ok.error()));
+  }
+  if (!problems.empty()) throw BadInput(problems);
+}
+
+void Application::BuildCharacter(const Config& config, std::optional<Character>& character,
+                                 std::span<std::byte> memory) const {
+  const std::vector<std::string> signals = SignalNames(profile_.get());
+  const Rig rig = LoadRig(config.character.rig, &signals);
+  character.emplace();
+  character->rig = rig;
+  character->rig_id = wire::RigId(rig);
+  Arena arena(memory);
+  const retarget::ExpressionMapping* expressions =
+      profile_ == nullptr ? nullptr : &profile_->mapping();
+  if (const Result<> ok = character->retargeter.Configure(character->rig, expressions, arena);
+      !ok) {
+    throw Failure(config.character.rig.string() + ": " + Name(ok.error()));
+  }
+}
+
+bool Application::PlaysFast() const {
+  return camera_address_.starts_with("replay:") &&
+         config_.camera.replay.pace == ReplayConfig::Pace::kFast;
+}
+
+ServiceConfig Application::ServiceConfigOf(const Config& config) const {
+  ServiceConfig service;
+  service.states = config.states;
+  service.filter = config.filter;
+  service.min_rate_hz = config.host.min_rate_hz;
+  service.describe_every = milliseconds(static_cast<int>(1000 * config.host.describe_every_s));
+  service.media_time = PlaysFast();
+  return service;
+}
+
+void Application::Open() {
+  if (camera_address_.empty()) {
+    // Nothing to play: a grey picture, in which nobody is.
+    blank_view_.width_px = config_.camera.width_px;
+    blank_view_.height_px = config_.camera.height_px;
+    blank_.assign(static_cast<std::size_t>(config_.camera.width_px) *
+                      static_cast<std::size_t>(config_.camera.height_px),
+                  128);
+    blank_view_.planes[0] = {blank_.data(), config_.camera.width_px};
+    hal::fake::FakeCameraConfig fake;
+    fake.pictures = std::span(&blank_view_, 1);
+    fake.fps = config_.camera.fps;
+    camera_ = std::make_unique<hal::fake::FakeCamera>(fake, clock_);
+  } else {
+    camera_ = MakeCamera(camera_address_, CameraOptionsOf(config_.camera), clock_);
+  }
+  if (!line_address_.empty()) {
+    port_ = MakeHostLine(line_address_, config_.host.baud);
+    OpenSerialPort(*port_, line_address_, config_.host.baud);
+  }
+  StartCamera(*camera_, camera_address_);
+
+  line_.emplace(port_.get(), clock_, milliseconds(config_.host.write_budget_ms));
+  if (!line_->Open()) throw Failure(line_address_ + ": was lost while starting");
+  service_.emplace(
+      ServiceConfigOf(config_),
+      ServiceParts{.camera = *camera_,
+                   .line = *line_,
+                   .clock = clock_,
+                   .follower = follower_,
+                   .capture = capture_,
+                   .stop = nullptr,
+                   .keep_neutral =
+                       [this](const retarget::Neutral& neutral) { return KeepNeutral(neutral); }},
+      *characters_[running_]);
+  TakeStoredNeutral();
+}
+
+// A neutral that cannot be used must not keep a board from starting: the performer is there to give
+// another one.
+void Application::TakeStoredNeutral() {
+  std::error_code ignored;
+  if (std::filesystem::exists(NeutralFile(), ignored)) {
+    try {
+      if (service_->UseNeutral(LoadNeutral(NeutralFile()))) return;
+      Log((NeutralFile().string() + ": cannot be used; taking a new neutral").c_str());
+    } catch (const BadInput& e) {
+      Log((std::string(e.what()) + "; taking a new neutral").c_str());
+    }
+  }
+  if (config_.neutral.auto_s > 0) service_->TakeNeutralByItself();
+}
+
+bool Application::KeepNeutral(const retarget::Neutral& neutral) const {
+  try {
+    std::filesystem::create_directories(config_.neutral.folder);
+    SaveNeutral(NeutralFile(), neutral);
+    return true;
+  } catch (const std::exception& e) {
+    Log(e.what());
+    return false;
+  }
+}
+
+// The program.
+void Application::Run(Requests& requests, Duration limit) {
+  supervisor_.Ready();
+  began_ = next_beat_ = next_log_ = clock_.Now();
+  const Time media_began = service_->now();
+  while (service_->Tick()) {
+    Supervise();
+    if (requests.quit.load() > 0) service_->Quit();
+    if (requests.quit.load() > 1) break;
+    if (limit > Duration::zero() && service_->now() - media_began >= limit) service_->Quit();
+    if (requests.reload.exchange(false)) Reload();
+  }
+  supervisor_.Stopping();
+}
+
+void Application::Supervise() {
+  const Time now = clock_.Now();
+  if (supervisor_.watchdog_interval() > Duration::zero() && now >= next_beat_) {
+    next_beat_ = now + supervisor_.watchdog_interval();
+    if (!service_->Hopeless()) supervisor_.Alive();
+  }
+  if (now < next_log_) return;
+  next_log_ = now + seconds(1);
+  LogStateChange();
+}
+
+void Application::LogStateChange() {
+  const wire::Status& status = service_->status();
+  std::array<char, 160> text;
+  const int size = std::snprintf(
+      text.data(), text.size(), "%s, %d.%d fps, latency %u ms, line %s", Name(service_->state()),
+      status.centi_fps / 100, status.centi_fps / 10 % 10,
+      static_cast<unsigned>(status.latency_p50_us / 1000), line_->connected() ? "up" : "gone");
+  supervisor_.Status({text.data(), static_cast<std::size_t>(size)});
+  if (service_->state() == logged_) return;
+  logged_ = service_->state();
+  Log(text.data());
+}
+
+// Between two ticks. Building may allocate; whatever goes wrong, the old character runs on.
+void Application::Reload() {
+  supervisor_.Reloading(clock_.Now());
+  try {
+    const Config fresh = LoadConfig(options_.config);
+    const std::size_t idle = 1 - running_;
+    BuildCharacter(fresh, characters_[idle], character_memory_[idle]);
+    if (const Result<> ok = service_->Reload(ServiceConfigOf(fresh), *characters_[idle]); !ok) {
+      throw BadInput(fresh.character.rig.string() + ": " + Name(ok.error()));
+    }
+    running_ = idle;
+    config_.states = fresh.states;
+    config_.filter = fresh.filter;
+    config_.character.rig = fresh.character.rig;
+    Log("reloaded rig, filter, rates and state times; other changes need a restart");
+  } catch (const std::exception& e) {
+    Log((std::string("not reloaded, running on as before: ") + e.what()).c_str());
+  }
+  supervisor_.Ready();
+}
+
+std::string Application::Summary() const {
+  const Rig& rig = characters_[running_]->rig;
+  std::string text = "ok\n";
+  text += "camera   " + (camera_address_.empty() ? "a blank picture" : camera_address_) + "\n";
+  text += "networks " + config_.tracker.networks.string() + "\n";
+  text += "rig      " + std::string(rig.name.view()) + ": " + std::to_string(rig.bones.size()) +
+          " bones, " + std::to_string(rig.channels.size()) + " channels\n";
+  text += "profile  " +
+          (profile_ == nullptr
+               ? "none: bones only"
+               : config_.character.profile.string() + ": " +
+                     std::to_string(profile_->mapping().signals().size()) + " signals") +
+          "\n";
+  text += "host     " + (line_address_.empty() ? "none" : line_address_) + "\n";
+  return text;
+}
+
+MemoryReport Application::Memory() const {
+  MemoryReport report;
+  const std::size_t character = retarget::Retargeter::RequiredBytes();
+  report.parts = {
+      {"tracker", FramePath::RequiredBytes(config_.tracker.tracker.model),
+       "networks, their weights and buffers"},
+      {"characters", 2 * character, "two mappings: one runs, a reload builds the other"},
+      {"neutral capture", retarget::NeutralCapture::RequiredBytes(),
+       "frames of a performer's face at rest"},
+      {"profile", profile_ == nullptr ? 0 : profile_->bytes(), "the expression mapping"},
+      {"service", sizeof(Application), "states, limits, rigs, frames of the line, counters"},
+  };
+  std::size_t footage = static_cast<std::size_t>(config_.camera.replay.memory_mib) << 20U;
+  if (const auto* replay = dynamic_cast<const hal::replay::ReplayCamera*>(camera_.get())) {
+    footage = replay->info().block_bytes;
+  } else if (!camera_address_.starts_with("replay:")) {
+    footage = 0;
+  }
+  report.parts.push_back({"footage", footage, "a recording decoded ahead (mock hardware only)"});
+  return report;
+}
+
+RunReport Application::Report() const {
+  const ServiceStats& stats = service_->stats();
+  const HostLineCounters& line = line_->counters();
+  RunReport report;
+  report.seconds = static_cast<double>(Seconds(clock_.Now() - began_));
+  report.ticks = stats.ticks;
+  report.frames = stats.frames;
+  report.fps = report.seconds > 0 ? static_cast<double>(stats.frames) / report.seconds : 0;
+  report.frames_dropped = stats.frames_dropped;
+  report.faces = stats.faces;
+  report.rejected = stats.rejected;
+  report.losses = stats.losses;
+  report.blinks = stats.blinks.count();
+  report.latency_p50_us = stats.latency.Quantile(0.5).count();
+  report.latency_p99_us = stats.latency.Quantile(0.99).count();
+  report.camera_restarts = stats.camera_restarts;
+  report.poses_sent = line.poses;
+  report.poses_dropped = line.poses_dropped;
+  report.line_errors = line.write_errors;
+  report.line_bytes = line.bytes;
+  report.resident_bytes = ResidentBytes();
+  report.footage_bytes = Memory().parts.back().bytes;
+  return report;
+}
+
+}  // namespace facewire::app

@@ -1,0 +1,47 @@
+#include "app/calibration.h"
+
+namespace facewire::app {
+
+void Calibration::BeginByItself() noexcept {
+  mode_ = Mode::kByItself;
+  capture_.Reset();
+}
+
+bool Calibration::Begin(const wire::Command& command) noexcept {
+  if (mode_ == Mode::kCommanded) return false;
+  mode_ = Mode::kCommanded;
+  command_ = command;
+  capture_.Reset();
+  return true;
+}
+
+bool Calibration::Update(const FacePose* face, Outcome& outcome) noexcept {
+  if (mode_ == Mode::kIdle) return false;
+  outcome.taken = false;
+  if (face == nullptr) {
+    capture_.Reset();
+    if (mode_ == Mode::kByItself) return false;
+    outcome.result = wire::CommandResult::kNoFace;
+  } else {
+    capture_.Add(*face);
+    if (capture_.progress() < 1) return false;
+    const Result<retarget::Neutral> neutral = capture_.Finish();
+    if (neutral) {
+      outcome.taken = true;
+      outcome.neutral = *neutral;
+      outcome.result = wire::CommandResult::kOk;
+    } else if (neutral.error() == Errc::kNotReady) {
+      return false;
+    } else {
+      capture_.Reset();
+      if (mode_ == Mode::kByItself) return false;  // the performer moves: once more
+      outcome.result = wire::CommandResult::kFailed;
+    }
+  }
+  outcome.command =
+      mode_ == Mode::kCommanded ? std::optional<wire::Command>(command_) : std::nullopt;
+  mode_ = Mode::kIdle;
+  return true;
+}
+
+}  // namespace facewire::app

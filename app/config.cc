@@ -1,0 +1,140 @@
+#include "app/config.h"
+
+#include "app/toml_reader.h"
+
+namespace facewire::app {
+namespace {
+
+using Pace = ReplayConfig::Pace;
+using Loop = ReplayConfig::Loop;
+
+// A path of the file, made absolute. An empty one stays empty.
+void ReadPath(TableReader& table, std::string_view key, const std::filesystem::path& folder,
+              std::filesystem::path& value) {
+  std::string text = value.string();
+  table.Text(key, text);
+  value = text.empty() ? std::filesystem::path{} : (folder / text).lexically_normal();
+}
+
+// "kind:rest" with one of the kinds; a kind that ends in ':' wants a rest, others stand alone.
+void ReadAddress(TableReader& table, std::string_view key, std::string_view form,
+                 const std::vector<std::string>& kinds, std::string& value) {
+  std::string text = value;
+  table.Text(key, text);
+  for (const std::string& kind : kinds) {
+    const bool wants_rest = kind.back() == ':';
+    if (text == kind ? !wants_rest : wants_rest && text.starts_with(kind)) {
+      value = text;
+      return;
+    }
+  }
+  table.Problem(key, "\"" + text + "\" is not understood; expected " + std::string(form));
+}
+
+void ReadCamera(TableReader camera, const std::filesystem::path& folder, CameraConfig& config) {
+  ReadAddress(camera, "device", R"("v4l2:/dev/videoN" or "replay")", {"v4l2:", "replay"},
+              config.device);
+  camera.Integer("width_px", config.width_px, 64, 4096, "px");
+  camera.Integer("height_px", config.height_px, 64, 4096, "px");
+  camera.Integer("fps", config.fps, 1, 240, "Hz");
+  TableReader replay = camera.Table("replay");
+  ReadPath(replay, "file", folder, config.replay.file);
+  replay.Choice<Pace>("pace", config.replay.pace,
+                      {{"real-time", Pace::kRealTime}, {"fast", Pace::kFast}});
+  replay.Choice<Loop>(
+      "loop", config.replay.loop,
+      {{"none", Loop::kNone}, {"restart", Loop::kRestart}, {"ping-pong", Loop::kPingPong}});
+  replay.Integer("memory_mib", config.replay.memory_mib, 0, 65536, "MiB");
+  if (config.replay.loop == Loop::kPingPong && config.replay.memory_mib == 0) {
+    replay.Problem("loop", "\"ping-pong\" plays backwards, too, from memory; set memory_mib");
+  }
+  if (config.device == "replay" && config.replay.file.empty()) {
+    camera.Problem("device", "is \"replay\" but camera.replay.file names no video");
+  }
+  replay.Finish();
+  camera.Finish();
+}
+
+void ReadTracker(TableReader tracker, const std::filesystem::path& folder,
+                 TrackerFilesConfig& config) {
+  tracker.Choice<track::Model>(
+      "model", config.tracker.model,
+      {{"attention", track::Model::kAttention}, {"mesh", track::Model::kMesh}});
+  ReadPath(tracker, "networks", folder, config.networks);
+  tracker.Number("min_detection_score", config.tracker.min_detection_score, {0, 1});
+  tracker.Number("min_presence", config.tracker.min_presence, {0, 1});
+  tracker.Finish();
+}
+
+void ReadOneEuro(TableReader group, filter::OneEuroConfig& config) {
+  group.Number("min_cutoff_hz", config.min_cutoff_hz, {0.001, 1000, "Hz"});
+  group.Number("beta", config.beta, {0, 100000});
+  group.Number("derivative_cutoff_hz", config.derivative_cutoff_hz, {0.001, 1000, "Hz"});
+  group.Finish();
+}
+
+void ReadFilter(TableReader filter, filter::FilterConfig& config) {
+  ReadOneEuro(filter.Table("eyes"), config.eyes);
+  ReadOneEuro(filter.Table("mouth"), config.mouth);
+  ReadOneEuro(filter.Table("rest"), config.rest);
+  filter.Finish();
+}
+
+void ReadHost(TableReader host, const std::filesystem::path& folder, HostConfig& config) {
+  ReadAddress(host, "line", R"("serial:/dev/ttyACM0", "pty:LINK" or "none")",
+              {"serial:", "pty:", "none"}, config.line);
+  const std::size_t colon = config.line.find(':');
+  if (colon != std::string::npos) {
+    const std::filesystem::path path = folder / config.line.substr(colon + 1);
+    config.line = config.line.substr(0, colon + 1) + path.lexically_normal().string();
+  }
+  host.Integer("baud", config.baud, 1200, 4'000'000, "baud");
+  host.Integer("write_budget_ms", config.write_budget_ms, 0, 20, "ms");
+  host.Integer("min_rate_hz", config.min_rate_hz, 20, 240, "Hz");
+  host.Number("describe_every_s", config.describe_every_s, {0, 3600, "s"});
+  host.Finish();
+}
+
+void ReadStates(TableReader states, state::StateConfig& config) {
+  states.Milliseconds("start_ramp_ms", config.start_ramp, 60'000);
+  states.Milliseconds("acquire_ms", config.acquire, 60'000);
+  states.Milliseconds("hold_ms", config.hold, 600'000);
+  states.Milliseconds("ease_ms", config.ease, 60'000);
+  states.Milliseconds("rest_after_ms", config.rest_after, 86'400'000);
+  states.Milliseconds("camera_timeout_ms", config.camera_timeout, 600'000);
+  int frames = static_cast<int>(config.neutral_frames);
+  states.Integer("neutral_frames", frames, 1, 1000, "frames");
+  config.neutral_frames = static_cast<std::uint32_t>(frames);
+  states.Finish();
+}
+
+}  // namespace
+
+Config LoadConfig(const std::filesystem::path& file) {
+  const toml::table root = ParseTomlFile(file);
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  Problems problems(file.string());
+  TableReader top(problems, &root, "");
+  Config config;
+  ReadCamera(top.Table("camera"), folder, config.camera);
+  ReadTracker(top.Table("tracker"), folder, config.tracker);
+  ReadFilter(top.Table("filter"), config.filter);
+  TableReader pose = top.Table("pose");
+  pose.Number("vertical_fov_deg", config.pose.vertical_fov_deg, {10, 150, "degrees"});
+  pose.Finish();
+  TableReader character = top.Table("character");
+  ReadPath(character, "rig", folder, config.character.rig);
+  ReadPath(character, "profile", folder, config.character.profile);
+  character.Finish();
+  TableReader neutral = top.Table("neutral");
+  ReadPath(neutral, "folder", folder, config.neutral.folder);
+  neutral.Number("auto_s", config.neutral.auto_s, {0, 60, "s"});
+  neutral.Finish();
+  ReadHost(top.Table("host"), folder, config.host);
+  ReadStates(top.Table("states"), config.states);
+  top.Finish();
+  problems.ThrowIfAny();
+  return config;
+}
+
+}  // namespace facewire::app

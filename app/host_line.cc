@@ -1,0 +1,143 @@
+#include "app/host_line.h"
+
+#include <algorithm>
+
+#include "core/wire/rig_description.h"
+
+namespace facewire::app {
+namespace {
+
+using std::chrono::milliseconds;
+
+// At most so many parts of the description ride on one tick: on a slow line the poses come first.
+constexpr int kPartsPerTick = 4;
+
+}  // namespace
+
+void HostLine::SetRig(const Rig& rig, std::uint32_t rig_id) noexcept {
+  rig_ = &rig;
+  rig_id_ = rig_id;
+  described_ = 0;
+}
+
+Result<> HostLine::Open() noexcept {
+  if (port_ == nullptr) return {};
+  const Result<> opened = port_->Open();
+  if (!opened) {
+    reopen_.Failed(clock_.Now());
+    return opened;
+  }
+  reopen_.Succeeded();
+  open_ = true;
+  out_begin_ = out_end_ = 0;
+  unread_ = {};
+  described_ = 0;
+  ++counters_.opens;
+  return {};
+}
+
+void HostLine::Lose(Errc why) noexcept {
+  ++counters_.write_errors;
+  if (why != Errc::kDisconnected && why != Errc::kIo) return;
+  ++counters_.hang_ups;
+  open_ = false;
+  port_->Close();
+  reopen_.Failed(clock_.Now());
+}
+
+std::optional<wire::Command> HostLine::NextCommand() noexcept {
+  while (open_) {
+    if (unread_.empty()) {
+      const auto read = port_->Read(in_, milliseconds(0));
+      if (!read) {
+        if (read.error() != Errc::kTimeout) Lose(read.error());
+        return std::nullopt;
+      }
+      unread_ = std::span(in_).first(*read);
+    }
+    const auto received = decoder_.Next(unread_);
+    if (!received) continue;  // damage is counted by the decoder, more bytes are read above
+    if (const auto* command = std::get_if<wire::Command>(&received->message)) return *command;
+  }
+  return std::nullopt;
+}
+
+void HostLine::Acknowledge(const wire::Command& command, wire::CommandResult result) noexcept {
+  // A host that floods the line loses answers, and asks again.
+  (void)answers_.try_push(
+      {.id = command.id, .code = command.code, .result = result, .now = clock_.Now()});
+}
+
+bool HostLine::Send(const wire::Pose& pose, const wire::Status* status) noexcept {
+  if (port_ == nullptr) return false;
+  if (!open_ && !(reopen_.Due(clock_.Now()) && Open())) return false;
+  const Time deadline = clock_.Now() + budget_;
+  if (Flush(deadline)) SendAcknowledgements(deadline);
+  if (!SendPose(pose, deadline)) {
+    ++counters_.poses_dropped;
+    return false;
+  }
+  ++counters_.poses;
+  if (status == nullptr || (Frame(*status) && Flush(deadline))) SendDescription(deadline);
+  return true;
+}
+
+bool HostLine::SendPose(const wire::Pose& pose, Time deadline) noexcept {
+  if (!Frame(pose)) return false;
+  const std::size_t untouched = out_end_ - out_begin_;
+  if (Flush(deadline)) return true;
+  // Nothing of it has left: the next tick has a newer one. The gap in the numbers tells the host.
+  if (out_end_ - out_begin_ == untouched) out_begin_ = out_end_ = 0;
+  return false;
+}
+
+void HostLine::SendAcknowledgements(Time deadline) noexcept {
+  for (const wire::Acknowledgement& answer : answers_) {
+    if (!Frame(answer) || !Flush(deadline)) break;
+  }
+  answers_.clear();
+}
+
+void HostLine::SendDescription(Time deadline) noexcept {
+  if (rig_ == nullptr) return;
+  for (int i = 0; i < kPartsPerTick && described_ < wire::DescriptionCount(*rig_); ++i) {
+    const Result<wire::Message> part = wire::Description(*rig_, rig_id_, described_);
+    if (!part || !Frame(*part)) return;
+    ++described_;
+    if (!Flush(deadline)) return;
+  }
+}
+
+// Puts the message's frame into the empty buffer. False: the buffer still holds one, or the message
+// cannot be encoded.
+template <class Message>
+bool HostLine::Frame(const Message& message) noexcept {
+  if (!open_ || out_end_ != out_begin_) return false;
+  const auto frame = encoder_.Encode(message, out_);
+  if (!frame) return false;
+  out_begin_ = static_cast<std::size_t>(frame->data() - out_.data());
+  out_end_ = out_begin_ + frame->size();
+  return true;
+}
+
+// Hands over what the buffer holds. True when it is empty afterwards.
+bool HostLine::Flush(Time deadline) noexcept {
+  while (open_ && out_begin_ < out_end_) {
+    const auto left =
+        std::chrono::duration_cast<milliseconds>(std::max(deadline - clock_.Now(), Duration{}));
+    const auto taken =
+        port_->Write(std::span(out_).subspan(out_begin_, out_end_ - out_begin_), left);
+    if (!taken) {
+      if (taken.error() != Errc::kTimeout) Lose(taken.error());
+      return false;
+    }
+    out_begin_ += *taken;
+    counters_.bytes += *taken;
+    if (*taken == 0) return false;
+  }
+  if (!open_) return false;
+  out_begin_ = out_end_ = 0;
+  return true;
+}
+
+}  // namespace facewire::app

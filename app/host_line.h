@@ -1,0 +1,95 @@
+#ifndef FACEWIRE_APP_HOST_LINE_H_
+#define FACEWIRE_APP_HOST_LINE_H_
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "app/backoff.h"
+#include "core/base/inline_vector.h"
+#include "core/rig/rig.h"
+#include "core/wire/decoder.h"
+#include "core/wire/encoder.h"
+#include "core/wire/message.h"
+#include "hal/clock.h"
+#include "hal/serial_port.h"
+
+namespace facewire::app {
+
+struct HostLineCounters {
+  std::uint64_t poses = 0;          // handed to the line completely
+  std::uint64_t poses_dropped = 0;  // not handed over in their tick
+  std::uint64_t bytes = 0;
+  std::uint64_t write_errors = 0;
+  std::uint64_t hang_ups = 0;  // times that an open line was lost
+  std::uint64_t opens = 0;
+};
+
+// The service's end of the line to the host: frames out, commands in. Never waits longer than the
+// budget of a tick, never allocates (opening aside). What is sent first: the rest of a frame that
+// the line took in part (a receiver must not see half a frame), acknowledgements, the pose, the
+// status, and of the rig's description as much as the line still takes.
+class HostLine {
+ public:
+  // `port` may be null: nothing is sent, and nothing is ever missing. All are borrowed.
+  HostLine(hal::SerialPort* port, hal::Clock& clock, std::chrono::milliseconds budget) noexcept
+      : port_(port), clock_(clock), budget_(budget) {}
+
+  // The rig that poses belong to; borrowed until the next call. Its description is sent at once.
+  void SetRig(const Rig& rig, std::uint32_t rig_id) noexcept;
+
+  // Opens the line; later on it is reopened by itself, with back-off. Errors as SerialPort::Open.
+  Result<> Open() noexcept;
+  // Sends everything about the rig again, from its beginning.
+  void Describe() noexcept { described_ = 0; }
+
+  // The next command that has arrived, without waiting.
+  std::optional<wire::Command> NextCommand() noexcept;
+  // Queues the answer; it leaves with the next Send.
+  void Acknowledge(const wire::Command& command, wire::CommandResult result) noexcept;
+
+  // One tick: reopens a lost line when it is time, then sends. `status` may be null: not due.
+  // True when the pose was handed over completely.
+  bool Send(const wire::Pose& pose, const wire::Status* status) noexcept;
+
+  // False while a line that there should be is closed.
+  bool connected() const noexcept { return port_ == nullptr || open_; }
+  const HostLineCounters& counters() const noexcept { return counters_; }
+  const wire::LinkStats& received() const noexcept { return decoder_.stats(); }
+
+ private:
+  template <class Message>
+  bool Frame(const Message& message) noexcept;
+  bool Flush(Time deadline) noexcept;
+  bool SendPose(const wire::Pose& pose, Time deadline) noexcept;
+  void SendAcknowledgements(Time deadline) noexcept;
+  void SendDescription(Time deadline) noexcept;
+  void Lose(Errc why) noexcept;
+
+  hal::SerialPort* port_;
+  hal::Clock& clock_;
+  std::chrono::milliseconds budget_;
+  Backoff reopen_;
+  bool open_ = false;
+
+  const Rig* rig_ = nullptr;
+  std::uint32_t rig_id_ = 0;
+  std::size_t described_ = 0;  // parts of the description that were sent
+
+  wire::Encoder encoder_;
+  std::array<std::byte, wire::kMaxFrameBytes> out_{};
+  std::size_t out_begin_ = 0;  // of what is still to be sent of out_
+  std::size_t out_end_ = 0;
+
+  wire::Decoder decoder_;
+  std::array<std::byte, 512> in_{};
+  std::span<const std::byte> unread_;  // part of in_
+  InlineVector<wire::Acknowledgement, 16> answers_;
+  HostLineCounters counters_;
+};
+
+}  // namespace facewire::app
+
+#endif  // FACEWIRE_APP_HOST_LINE_H_

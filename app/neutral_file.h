@@ -1,0 +1,20 @@
+#ifndef FACEWIRE_APP_NEUTRAL_FILE_H_
+#define FACEWIRE_APP_NEUTRAL_FILE_H_
+
+#include <filesystem>
+
+#include "core/retarget/neutral.h"
+
+namespace facewire::app {
+
+// The performer's neutral, kept across boots (format in app/README.md).
+
+// BadInput, one line: missing, not a neutral, truncated, damaged, of another version, not finite.
+retarget::Neutral LoadNeutral(const std::filesystem::path& path);
+
+// Atomically. Failure: cannot write.
+void SaveNeutral(const std::filesystem::path& path, const retarget::Neutral& neutral);
+
+}  // namespace facewire::app
+
+#endif  // FACEWIRE_APP_NEUTRAL_FILE_H_

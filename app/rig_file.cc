@@ -1,0 +1,259 @@
+#include "app/rig_file.h"
+
+#include <algorithm>
+#include <array>
+
+#include "app/toml_reader.h"
+#include "core/base/capacity.h"
+
+namespace facewire::app {
+namespace {
+
+struct NamedLandmark {
+  std::string_view name;
+  std::int16_t index;
+};
+
+// Indices of MediaPipe's face mesh; checked against the positions of the canonical face model
+// (Apache-2.0).
+constexpr std::array kLandmarks = {
+    NamedLandmark{"forehead", 10},
+    NamedLandmark{"glabella", 9},
+    NamedLandmark{"nose_bridge", 168},
+    NamedLandmark{"nose_tip", 1},
+    NamedLandmark{"left_nostril", 327},
+    NamedLandmark{"right_nostril", 98},
+    NamedLandmark{"chin", 152},
+    NamedLandmark{"left_jaw", 397},
+    NamedLandmark{"right_jaw", 172},
+    NamedLandmark{"left_cheek", 280},
+    NamedLandmark{"right_cheek", 50},
+    NamedLandmark{"upper_lip", 0},
+    NamedLandmark{"lower_lip", 17},
+    NamedLandmark{"upper_lip_inside", 13},
+    NamedLandmark{"lower_lip_inside", 14},
+    NamedLandmark{"left_mouth_corner", 291},
+    NamedLandmark{"right_mouth_corner", 61},
+    NamedLandmark{"left_eye_outer", 263},
+    NamedLandmark{"left_eye_inner", 362},
+    NamedLandmark{"right_eye_outer", 33},
+    NamedLandmark{"right_eye_inner", 133},
+    NamedLandmark{"left_upper_lid", 386},
+    NamedLandmark{"left_lower_lid", 374},
+    NamedLandmark{"right_upper_lid", 159},
+    NamedLandmark{"right_lower_lid", 145},
+    NamedLandmark{"left_brow_inner", 336},
+    NamedLandmark{"left_brow_middle", 334},
+    NamedLandmark{"left_brow_outer", 300},
+    NamedLandmark{"right_brow_inner", 107},
+    NamedLandmark{"right_brow_middle", 105},
+    NamedLandmark{"right_brow_outer", 70},
+    NamedLandmark{"left_iris", 473},
+    NamedLandmark{"right_iris", 468},
+};
+
+constexpr std::array<std::string_view, 6> kHeadSignals = {"head.pitch", "head.yaw", "head.roll",
+                                                          "head.x",     "head.y",   "head.z"};
+
+struct Axis {
+  std::string_view name;
+  ChannelKind kind;
+  NumberRange range;  // what any channel of this kind may have
+};
+constexpr std::array kAxes = {
+    Axis{"x", ChannelKind::kPositionX, {-1000, 1000, "cm"}},
+    Axis{"y", ChannelKind::kPositionY, {-1000, 1000, "cm"}},
+    Axis{"z", ChannelKind::kPositionZ, {-1000, 1000, "cm"}},
+    Axis{"pitch", ChannelKind::kPitch, {-180, 180, "degrees"}},
+    Axis{"yaw", ChannelKind::kYaw, {-180, 180, "degrees"}},
+    Axis{"roll", ChannelKind::kRoll, {-180, 180, "degrees"}},
+};
+constexpr NumberRange kParameterRange{-1e6, 1e6};
+constexpr NumberRange kGainRange{-1e6, 1e6};
+constexpr NumberRange kRateRange{0, 1e9};
+
+std::string Shown(float number) {
+  std::string text = std::to_string(number);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+class RigReader {
+ public:
+  explicit RigReader(const std::vector<std::string>* known_signals) : check_(known_signals) {
+    if (known_signals != nullptr) known_ = *known_signals;
+    known_.insert(known_.end(), kHeadSignals.begin(), kHeadSignals.end());
+  }
+
+  Rig Read(TableReader& top) {
+    if (top.Require("name", "what the character is called")) ReadName(top, rig_.name);
+    top.EachTable("bone", [this](TableReader& bone) { ReadBone(bone); });
+    top.EachTable("parameter", [this](TableReader& parameter) { ReadParameter(parameter); });
+    if (rig_.channels.empty() && !top.Has("bone") && !top.Has("parameter")) {
+      top.Require("parameter",
+                  "a rig needs at least one [[bone]] with an axis, or one [[parameter]]");
+    }
+    top.Finish();
+    return rig_;
+  }
+
+ private:
+  static bool ReadName(TableReader& table, ShortName& name) {
+    std::string text;
+    table.Text("name", text);
+    const auto made = ShortName::From(text);
+    if (made) {
+      name = *made;
+    } else {
+      table.Problem("name", "\"" + text + "\" is no name; expected 1 to " +
+                                std::to_string(kMaxNameLength) +
+                                " printable ASCII characters without spaces");
+    }
+    return made.has_value();
+  }
+
+  void ReadBone(TableReader& table) {
+    Bone bone;
+    bool named = table.Require("name", "every bone has one") && ReadName(table, bone.name);
+    if (named &&
+        std::ranges::any_of(rig_.bones, [&](const Bone& b) { return b.name == bone.name; })) {
+      table.Problem("name", "a second bone \"" + std::string(bone.name.view()) +
+                                "\"; every name may be there once");
+      named = false;
+    }
+    if (table.Has("landmark")) bone.landmark = ReadLandmark(table);
+    std::array<float, 3> rest{};
+    table.Numbers("rest_cm", rest.data(), rest.size(), {-1000, 1000, "cm"});
+    bone.rest_cm = {rest[0], rest[1], rest[2]};
+    const auto index = static_cast<std::int16_t>(rig_.bones.size());
+    if (!rig_.bones.try_push(bone)) {
+      table.Problem("name", "too many bones; the most is " + std::to_string(kMaxBones));
+    }
+    for (const Axis& axis : kAxes) {
+      TableReader limits = table.Table(axis.name);
+      if (!table.Has(axis.name)) continue;
+      Channel channel;
+      channel.kind = axis.kind;
+      channel.bone = index;
+      channel.min = 0;
+      channel.max = 0;
+      const std::string name = std::string(bone.name.view()) + "." + std::string(axis.name);
+      if (const auto made = ShortName::From(name)) {
+        channel.name = *made;
+      } else if (named) {
+        table.Problem("name", "\"" + name + "\" is longer than " + std::to_string(kMaxNameLength) +
+                                  " characters; shorten the bone's name");
+        named = false;
+      }
+      const bool limited = limits.Require("min", "the lowest value (a position is an offset)") &
+                           limits.Require("max", "the highest value (a position is an offset)");
+      ReadChannel(limits, axis.range, channel);
+      const bool follows_landmark = IsPosition(axis.kind) && bone.landmark >= 0;
+      if (limited && channel.drives.empty() && !limits.Has("drive") && !follows_landmark) {
+        table.Problem(axis.name,
+                      IsPosition(axis.kind)
+                          ? "would never move; give the bone a landmark, or a drive here"
+                          : "would never move; give it a drive, as drive = { jawOpen = 20 }");
+      }
+      limits.Finish();
+      if (named) Push(table, axis.name, channel);
+    }
+    table.Finish();
+  }
+
+  void ReadParameter(TableReader& table) {
+    Channel channel;
+    const bool named =
+        table.Require("name", "every parameter has one") && ReadName(table, channel.name);
+    if (named && !table.Has("drive"))
+      AddDrive(table.Where("name"), table, channel.name.view(), 1, channel);
+    ReadChannel(table, kParameterRange, channel);
+    if (named) Push(table, "name", channel);
+    table.Finish();
+  }
+
+  void ReadChannel(TableReader& table, const NumberRange& range, Channel& channel) {
+    table.Number("min", channel.min, range);
+    table.Number("max", channel.max, range);
+    table.Number("neutral", channel.neutral, range);
+    table.Number("max_speed", channel.max_speed_per_s, kRateRange);
+    table.Number("max_acceleration", channel.max_acceleration_per_s2, kRateRange);
+    if (channel.min >= channel.max) {
+      table.Problem("min", Shown(channel.min) + " is not below max, " + Shown(channel.max));
+    } else if (channel.neutral < channel.min || channel.neutral > channel.max) {
+      table.Problem("neutral", Shown(channel.neutral) + " is outside min to max, " +
+                                   Shown(channel.min) + " to " + Shown(channel.max));
+    }
+    table.EachNumber("drive",
+                     [&](std::string_view signal, double gain, const toml::source_region& where) {
+                       AddDrive(where, table, signal, static_cast<float>(gain), channel);
+                     });
+  }
+
+  void AddDrive(const toml::source_region& where, TableReader& table, std::string_view signal,
+                float gain, Channel& channel) {
+    const auto name = ShortName::From(signal);
+    if (!name || (check_ != nullptr && std::ranges::find(known_, signal) == known_.end())) {
+      table.ProblemAt(where, "drive",
+                      "no signal \"" + std::string(signal) + "\" in the profile, nor of the head" +
+                          Suggestion(signal, known_));
+    } else if (gain < kGainRange.min || gain > kGainRange.max) {
+      table.ProblemAt(where, "drive", "a gain of " + Shown(gain) + " is out of range");
+    } else if (!channel.drives.try_push({*name, gain})) {
+      table.ProblemAt(where, "drive",
+                      "too many signals; the most is " + std::to_string(kMaxDrives));
+    }
+  }
+
+  void Push(TableReader& table, std::string_view key, const Channel& channel) {
+    const std::string name(channel.name.view());
+    if (rig_.FindChannel(name)) {
+      table.Problem(key, "a second channel \"" + name + "\"; every name may be there once");
+    } else if (!rig_.channels.try_push(channel)) {
+      table.Problem(key, "too many channels; the most is " + std::to_string(kMaxChannels));
+    }
+  }
+
+  static std::int16_t ReadLandmark(TableReader& table) {
+    constexpr int kLast = static_cast<int>(kMaxLandmarks) - 1;
+    if (!table.IsText("landmark")) {
+      int index = -1;
+      table.Integer("landmark", index, 0, kLast);
+      return static_cast<std::int16_t>(index);
+    }
+    std::string name;
+    table.Text("landmark", name);
+    if (const auto index = LandmarkByName(name)) return *index;
+    std::vector<std::string> names;
+    for (const NamedLandmark& known : kLandmarks) names.emplace_back(known.name);
+    std::string hint = Suggestion(name, names);
+    if (hint.empty())
+      hint = "; expected 0 to " + std::to_string(kLast) + " or a name such as \"chin\"";
+    table.Problem("landmark", "no landmark \"" + name + "\"" + hint);
+    return -1;
+  }
+
+  Rig rig_;
+  const std::vector<std::string>* check_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace
+
+std::optional<std::int16_t> LandmarkByName(std::string_view name) {
+  const auto* at = std::ranges::find(kLandmarks, name, &NamedLandmark::name);
+  if (at == kLandmarks.end()) return std::nullopt;
+  return at->index;
+}
+
+Rig LoadRig(const std::filesystem::path& file, const std::vector<std::string>* known_signals) {
+  const toml::table root = ParseTomlFile(file);
+  Problems problems(file.string());
+  TableReader top(problems, &root, "");
+  const Rig rig = RigReader(known_signals).Read(top);
+  problems.ThrowIfAny();
+  return rig;
+}
+
+}  // namespace facewire::app

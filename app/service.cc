@@ -1,0 +1,266 @@
+#include "app/service.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/wire/pose.h"
+
+namespace facewire::app {
+namespace {
+
+using std::chrono::milliseconds;
+
+// A capture time further from the present than this is of another clock.
+constexpr Duration kOldestPicture = milliseconds(500);
+
+std::uint32_t Low32(std::uint64_t count) noexcept { return static_cast<std::uint32_t>(count); }
+
+std::uint32_t Microseconds(Duration d) noexcept {
+  return static_cast<std::uint32_t>(
+      std::clamp<std::int64_t>(d.count(), 0, std::numeric_limits<std::uint32_t>::max()));
+}
+
+}  // namespace
+
+Service::Service(const ServiceConfig& config, const ServiceParts& parts,
+                 Character& character) noexcept
+    : config_(config), parts_(parts), character_(&character), calibration_(parts.capture) {
+  started_ = parts_.clock.Now();
+  last_picture_ = started_;
+  deadline_ = started_ + period();
+  now_ = config_.media_time ? Time{} : started_;
+  next_status_ = status_at_ = next_description_ = now_;
+  (void)Reload(config, character);  // passed its checks, and there is no neutral yet
+}
+
+Result<> Service::Reload(const ServiceConfig& config, Character& character) noexcept {
+  if (neutral_) {
+    if (const Result<> ok = character.retargeter.SetNeutral(*neutral_); !ok) return ok;
+  }
+  if (const Result<> ok = motion_.Configure(character.rig, config.states, now_); !ok) return ok;
+  config_ = config;
+  character_ = &character;
+  parts_.follower.Use(character, config.filter);
+  parts_.line.SetRig(character.rig, character.rig_id);
+  blink_left_ = character.rig.FindChannel("eyeBlinkLeft");
+  blink_right_ = character.rig.FindChannel("eyeBlinkRight");
+  return {};
+}
+
+Result<> Service::UseNeutral(const retarget::Neutral& neutral) noexcept {
+  const Result<> used = character_->retargeter.SetNeutral(neutral);
+  if (used) neutral_ = neutral;
+  return used;
+}
+
+// The whole service.
+bool Service::Tick() noexcept {
+  state::Inputs in;
+  in.sight = Look();
+  in.now = now_;
+  in.line_gone = !parts_.line.connected();
+  ReadCommands(in);
+  in.rest = rest_;
+  in.quit = quit_;
+  const ServiceState before = motion_.state();
+  const MotionOutput out = motion_.Update(in, wish_);
+  if (before == ServiceState::kTracking && out.state == ServiceState::kHolding) ++stats_.losses;
+  Send(out);
+  ++stats_.ticks;
+  return !out.finished;
+}
+
+// Waits for a picture until the tick is due, and follows it.
+state::Sight Service::Look() noexcept {
+  pictured_ = false;
+  if (!running_ && !ended_) RestartCamera();
+  if (!running_) {
+    if (!config_.media_time) parts_.clock.SleepUntil(deadline_);
+    MissPicture(Errc::kDisconnected);
+    return state::Sight::kSilent;
+  }
+  const auto left = std::max(deadline_ - parts_.clock.Now(), Duration{});
+  const Result<Frame> frame = parts_.camera.Acquire(std::chrono::ceil<milliseconds>(left));
+  if (!frame) {
+    MissPicture(frame.error());
+    return state::Sight::kSilent;
+  }
+  const state::Sight sight = See(*frame);
+  parts_.camera.Release(*frame);
+  return sight;
+}
+
+state::Sight Service::See(const Frame& frame) noexcept {
+  acquired_ = last_picture_ = parts_.clock.Now();
+  deadline_ = acquired_ + period();
+  now_ = config_.media_time ? frame.captured
+                            : std::clamp(frame.captured, acquired_ - kOldestPicture, acquired_);
+  pictured_ = true;
+  restart_.Succeeded();
+  if (last_seq_ && frame.seq > *last_seq_ + 1) stats_.frames_dropped += frame.seq - *last_seq_ - 1;
+  last_seq_ = frame.seq;
+  ++stats_.frames;
+
+  const Result<Followed> followed = parts_.follower.Follow(frame);
+  if (followed) {
+    ++stats_.faces;
+    wish_ = followed->rig;
+  } else if (followed.error() == Errc::kRejected) {
+    ++stats_.rejected;
+  }
+  wish_.seq = frame.seq;
+  wish_.captured = now_;
+  Calibrate(followed ? &followed->face : nullptr);
+  return SightOf(followed);
+}
+
+void Service::MissPicture(Errc why) noexcept {
+  ++stats_.silent_ticks;
+  const Time clock = parts_.clock.Now();
+  now_ = config_.media_time ? now_ + period() : std::max(now_, clock);
+  wish_.captured = now_;
+  deadline_ += period();
+  if (deadline_ < clock) deadline_ = clock + period();
+  if (why == Errc::kEnd) {
+    ended_ = true;
+    running_ = false;
+    quit_ = true;
+    return;
+  }
+  if (!running_) return;
+  const bool silent = clock - last_picture_ > config_.states.camera_timeout && restart_.Due(clock);
+  if (why == Errc::kTimeout && !silent) return;
+  if (why != Errc::kTimeout) ++stats_.camera_errors;
+  parts_.camera.Stop();
+  parts_.follower.Forget();
+  running_ = false;
+}
+
+void Service::RestartCamera() noexcept {
+  const Time clock = parts_.clock.Now();
+  if (!restart_.Due(clock)) return;
+  ++stats_.camera_restarts;
+  running_ = camera_opens_ = parts_.camera.Start().has_value();
+  last_seq_.reset();
+  // Only a picture ends the back-off: a camera may start and stay silent again and again.
+  restart_.Failed(parts_.clock.Now());
+}
+
+bool Service::Hopeless() const noexcept {
+  return camera_opens_ && !ended_ &&
+         parts_.clock.Now() - last_picture_ > 3 * config_.states.camera_timeout;
+}
+
+void Service::ReadCommands(state::Inputs& in) noexcept {
+  if (parts_.stop != nullptr) {
+    // A line that cannot be read may be a cut one.
+    const Result<bool> asserted = parts_.stop->Get();
+    stop_line_ = !asserted || *asserted;
+  }
+  in.stop = stop_line_;
+  while (const auto command = parts_.line.NextCommand()) Obey(*command, in);
+}
+
+void Service::Obey(const wire::Command& command, state::Inputs& in) noexcept {
+  ++stats_.commands;
+  wire::CommandResult result = wire::CommandResult::kOk;
+  switch (command.code) {
+    case wire::CommandCode::kPing:
+      break;
+    case wire::CommandCode::kDescribeRig:
+      parts_.line.Describe();
+      break;
+    case wire::CommandCode::kCalibrateNeutral:
+      if (motion_.state() != ServiceState::kTracking) {
+        result = wire::CommandResult::kNoFace;
+      } else if (calibration_.Begin(command)) {
+        return;  // acknowledged when it is done
+      } else {
+        result = wire::CommandResult::kRefused;
+      }
+      break;
+    case wire::CommandCode::kRest:
+      rest_ = true;
+      break;
+    case wire::CommandCode::kStop:
+      in.stop = true;
+      in.release = false;
+      break;
+    case wire::CommandCode::kRelease:
+      if (stop_line_) {
+        result = wire::CommandResult::kRefused;
+      } else {
+        in.release = true;
+        rest_ = false;
+      }
+      break;
+    default:
+      result = wire::CommandResult::kUnknown;
+  }
+  parts_.line.Acknowledge(command, result);
+}
+
+void Service::Calibrate(const FacePose* face) noexcept {
+  if (!calibration_.Update(face, outcome_)) return;
+  if (outcome_.taken) {
+    if (!UseNeutral(outcome_.neutral)) {
+      outcome_.result = wire::CommandResult::kFailed;
+    } else if (outcome_.command && parts_.keep_neutral && !parts_.keep_neutral(outcome_.neutral)) {
+      outcome_.result = wire::CommandResult::kFailed;
+    }
+  }
+  if (outcome_.command) parts_.line.Acknowledge(*outcome_.command, outcome_.result);
+}
+
+// The time for the host: in media time, how long the tick has taken is added to the picture's time.
+Time Service::TimeOnLine() noexcept {
+  const Time clock = parts_.clock.Now();
+  if (!config_.media_time) return clock;
+  return pictured_ ? now_ + (clock - acquired_) : now_;
+}
+
+void Service::Send(const MotionOutput& out) noexcept {
+  if (config_.describe_every > Duration::zero() && now_ >= next_description_) {
+    next_description_ = now_ + config_.describe_every;
+    parts_.line.Describe();
+  }
+  const bool status_due = StatusDue();
+  const wire::Pose pose =
+      wire::MakePose(character_->rig, character_->rig_id, out.pose, out.state, TimeOnLine());
+  parts_.line.Send(pose, status_due ? &status_ : nullptr);
+  if (pictured_) {
+    const Duration latency = TimeOnLine() - now_;
+    stats_.latency.Add(latency);
+    recent_.Add(latency);
+  }
+  if (blink_left_ && blink_right_ && out.state == ServiceState::kTracking) {
+    stats_.blinks.Update(std::max(out.pose.values[*blink_left_], out.pose.values[*blink_right_]));
+  }
+}
+
+bool Service::StatusDue() noexcept {
+  if (now_ < next_status_) return false;
+  const float seconds = Seconds(now_ - status_at_);
+  const auto fresh = static_cast<float>(stats_.frames - frames_at_status_);
+  const HostLineCounters& line = parts_.line.counters();
+  status_.rig_id = character_->rig_id;
+  status_.state = motion_.state();
+  status_.now = TimeOnLine();
+  status_.uptime_s = Low32(static_cast<std::uint64_t>(
+      std::chrono::duration_cast<std::chrono::seconds>(parts_.clock.Now() - started_).count()));
+  status_.centi_fps =
+      seconds > 0 ? static_cast<std::uint16_t>(std::min(100 * fresh / seconds, 65535.0F)) : 0;
+  status_.frames = Low32(stats_.frames);
+  status_.dropped = Low32(stats_.frames_dropped);
+  status_.losses = Low32(stats_.losses);
+  status_.link_errors = Low32(parts_.line.received().Damaged() + line.write_errors);
+  status_.latency_p50_us = Microseconds(recent_.Quantile(0.5));
+  status_.latency_p99_us = Microseconds(recent_.Quantile(0.99));
+  recent_.Clear();
+  frames_at_status_ = stats_.frames;
+  status_at_ = now_;
+  next_status_ = now_ + config_.status_every;
+  return true;
+}
+
+}  // namespace facewire::app

@@ -1,0 +1,130 @@
+#ifndef FACEWIRE_APP_SERVICE_H_
+#define FACEWIRE_APP_SERVICE_H_
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "app/backoff.h"
+#include "app/calibration.h"
+#include "app/character.h"
+#include "app/follower.h"
+#include "app/host_line.h"
+#include "app/service_stats.h"
+#include "core/frame_path/motion.h"
+#include "core/retarget/neutral.h"
+#include "hal/camera.h"
+#include "hal/clock.h"
+#include "hal/gpio.h"
+
+namespace facewire::app {
+
+struct ServiceConfig {
+  state::StateConfig states;
+  filter::FilterConfig filter;
+  int min_rate_hz = 20;                               // ticks a second without pictures
+  Duration describe_every = std::chrono::seconds(5);  // 0: on request only
+  Duration status_every = std::chrono::seconds(1);
+  // The camera is a recording played as fast as possible: its frames' times are the time, and
+  // nothing waits.
+  bool media_time = false;
+};
+
+// What the service works with; all borrowed.
+struct ServiceParts {
+  hal::Camera& camera;  // started
+  HostLine& line;       // opened, if it can be
+  hal::Clock& clock;
+  Follower& follower;
+  retarget::NeutralCapture& capture;  // configured
+  hal::GpioInput* stop = nullptr;     // the emergency stop's line; null: none
+  // Keeps a neutral that a command took, across boots. False: it could not be kept.
+  std::function<bool(const retarget::Neutral&)> keep_neutral;
+};
+
+// The running service: one thread, one tick after the other. A tick is a picture when there is one
+// in time, else silence; either way the host gets a pose. Allocates nothing after construction, but
+// where a broken device is opened again or a commanded neutral is stored.
+class Service {
+ public:
+  // Runs `character` from its neutral pose. The character must have passed its checks.
+  Service(const ServiceConfig& config, const ServiceParts& parts, Character& character) noexcept;
+
+  // The performer's neutral that was kept. Errors as Retargeter::SetNeutral.
+  Result<> UseNeutral(const retarget::Neutral& neutral) noexcept;
+  // Takes one by itself from the first calm seconds of a face.
+  void TakeNeutralByItself() noexcept { calibration_.BeginByItself(); }
+
+  // Between ticks: goes on with another character and other settings, from where the channels are
+  // by way of neutral. Errors as Motion::Configure and Retargeter::SetNeutral; nothing is changed
+  // then.
+  Result<> Reload(const ServiceConfig& config, Character& character) noexcept;
+
+  // Eases to neutral; Tick answers false when it is there.
+  void Quit() noexcept { quit_ = true; }
+
+  // False: finished.
+  bool Tick() noexcept;
+
+  // Whether only a restart of the process might still help: the camera opens, but has been silent
+  // for three times its time-out although it was restarted. (A camera or a line that is unplugged
+  // is known, and tried again.)
+  bool Hopeless() const noexcept;
+  Time now() const noexcept { return now_; }
+  ServiceState state() const noexcept { return motion_.state(); }
+  const ServiceStats& stats() const noexcept { return stats_; }
+  // Of the last second that a status was made for.
+  const wire::Status& status() const noexcept { return status_; }
+
+ private:
+  state::Sight Look() noexcept;
+  state::Sight See(const Frame& frame) noexcept;
+  void MissPicture(Errc why) noexcept;
+  void RestartCamera() noexcept;
+  void ReadCommands(state::Inputs& in) noexcept;
+  void Obey(const wire::Command& command, state::Inputs& in) noexcept;
+  void Calibrate(const FacePose* face) noexcept;
+  void Send(const MotionOutput& out) noexcept;
+  bool StatusDue() noexcept;
+  Duration period() const noexcept { return Duration(1'000'000 / config_.min_rate_hz); }
+  Time TimeOnLine() noexcept;
+
+  ServiceConfig config_;
+  ServiceParts parts_;
+  Character* character_;
+  Motion motion_;
+  Calibration calibration_;
+  Calibration::Outcome outcome_;
+  std::optional<retarget::Neutral> neutral_;
+
+  bool running_ = true;       // the camera
+  bool camera_opens_ = true;  // at the last try
+  bool ended_ = false;        // the recording
+  Backoff restart_;
+  std::optional<std::uint64_t> last_seq_;
+  Time last_picture_{};    // by the clock
+  Time acquired_{};        // the tick's picture, by the clock
+  Time deadline_{};        // of the next tick, by the clock: absolute, so ticks do not drift
+  Time now_{};             // of the tick
+  bool pictured_ = false;  // this tick has a picture
+  RigPose wish_;           // of this tick
+
+  bool quit_ = false;
+  bool rest_ = false;
+  bool stop_line_ = false;
+  std::optional<std::size_t> blink_left_, blink_right_;
+
+  Time started_{};
+  Time next_description_{};
+  Time next_status_{};
+  std::uint64_t frames_at_status_ = 0;
+  Time status_at_{};
+  LatencyHistogram recent_;
+  wire::Status status_;
+  ServiceStats stats_;
+};
+
+}  // namespace facewire::app
+
+#endif  // FACEWIRE_APP_SERVICE_H_

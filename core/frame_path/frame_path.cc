@@ -1,0 +1,39 @@
+#include "core/frame_path/frame_path.h"
+
+namespace facewire {
+
+FramePath::FramePath(const FramePathConfig& config) noexcept
+    : config_(config), filter_(config.filter), pose_(config.pose) {}
+
+Result<> FramePath::Load(const track::NetworkFiles& files, Arena& arena) noexcept {
+  return tracker_.Load(config_.tracker, files, arena);
+}
+
+// The life of a frame.
+Result<Followed> FramePath::Update(const Frame& frame) noexcept {
+  const Result<Landmarks> seen = tracker_.Update(frame);
+  if (!seen) return Lose(seen.error());
+  const Result<Landmarks> steady = filter_.Update(*seen);
+  if (!steady) return Lose(steady.error());
+  const Result<FacePose> face = pose_.Update(*steady);
+  if (!face) return Lose(face.error());
+  return Followed{*face, retargeter_->Update(*face)};
+}
+
+// A rejected face may be one that the tracker follows wrongly, so it searches again, too.
+Errc FramePath::Lose(Errc why) noexcept {
+  Reset();
+  return why;
+}
+
+void FramePath::Reset() noexcept {
+  tracker_.Reset();
+  filter_.Reset();
+}
+
+state::Sight SightOf(const Result<Followed>& outcome) noexcept {
+  if (outcome) return state::Sight::kFace;
+  return outcome.error() == Errc::kRejected ? state::Sight::kRejected : state::Sight::kNoFace;
+}
+
+}  // namespace facewire

@@ -1,0 +1,338 @@
+#include "core/rbf/rbf.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "core/rbf/linear_solver.h"
+
+namespace facewire::rbf {
+namespace {
+
+constexpr std::size_t kLanes = 8;  // floats of the widest vector worth padding for (AVX)
+constexpr std::size_t kAlignment = kLanes * sizeof(float);
+
+constexpr std::size_t Padded(std::size_t n, std::size_t to) noexcept {
+  return (n + to - 1) / to * to;
+}
+
+// Of Evaluate's outputs: four lanes, since most functions here have three outputs.
+constexpr std::size_t OutputStride(std::size_t outputs) noexcept { return Padded(outputs, 4); }
+
+std::span<float> MakeFloats(Arena& arena, std::size_t count) noexcept {
+  void* at = arena.Allocate(count * sizeof(float), kAlignment);
+  if (at == nullptr) return {};
+  auto* first = static_cast<float*>(at);
+  std::uninitialized_value_construct_n(first, count);
+  return {first, count};
+}
+
+bool AllFinite(std::span<const float> values) noexcept {
+  return std::ranges::all_of(values, [](float v) { return std::isfinite(v); });
+}
+
+void AddSquaredDifferences(float x, const float* __restrict c, float* __restrict sum,
+                           std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float d = x - c[i];
+    sum[i] += d * d;
+  }
+}
+
+void AddScaled(float a, const float* __restrict x, float* __restrict y, std::size_t n) noexcept {
+  for (std::size_t i = 0; i < n; ++i) y[i] += a * x[i];
+}
+
+// Squared distances in units of 1 / epsilon, replaced by phi.
+void ApplyKernel(Kernel kernel, float* __restrict v, std::size_t n) noexcept {
+  switch (kernel) {
+    case Kernel::kMultiquadric:
+      for (std::size_t i = 0; i < n; ++i) v[i] = std::sqrt(1.0F + v[i]);
+      return;
+    case Kernel::kInverseMultiquadric:
+      for (std::size_t i = 0; i < n; ++i) v[i] = 1.0F / std::sqrt(1.0F + v[i]);
+      return;
+    case Kernel::kGaussian:
+      for (std::size_t i = 0; i < n; ++i) v[i] = std::exp(-v[i]);
+      return;
+    case Kernel::kLinear:
+      for (std::size_t i = 0; i < n; ++i) v[i] = std::sqrt(v[i]);
+      return;
+    case Kernel::kCubic:
+      for (std::size_t i = 0; i < n; ++i) v[i] *= std::sqrt(v[i]);
+      return;
+  }
+}
+
+}  // namespace
+
+double Phi(Kernel kernel, double u_squared) noexcept {
+  switch (kernel) {
+    case Kernel::kMultiquadric:
+      return std::sqrt(1.0 + u_squared);
+    case Kernel::kInverseMultiquadric:
+      return 1.0 / std::sqrt(1.0 + u_squared);
+    case Kernel::kGaussian:
+      return std::exp(-u_squared);
+    case Kernel::kLinear:
+      return std::sqrt(u_squared);
+    case Kernel::kCubic:
+      return u_squared * std::sqrt(u_squared);
+  }
+  return 0;
+}
+
+// One linear system, in the workspace.
+struct Rbf::Problem {
+  RbfShape shape;
+  std::span<const float> samples, targets;
+  std::span<double> squared;  // samples x samples: squared distances
+  std::span<double> mean;     // inputs
+  std::span<double> matrix;   // size x size
+  std::span<double> weights;  // size x outputs
+  std::span<double> work;     // size
+  std::span<std::uint32_t> pivots;
+  LinearSolver solver;
+  float epsilon = 1;
+
+  std::size_t size() const noexcept { return pivots.size(); }
+
+  double Input(std::size_t sample, std::size_t i) const noexcept {
+    return samples[sample * shape.inputs + i] - mean[i];
+  }
+
+  void MeasureDistances() noexcept {
+    for (std::size_t i = 0; i < shape.inputs; ++i) {
+      double sum = 0;
+      for (std::size_t s = 0; s < shape.samples; ++s) sum += samples[s * shape.inputs + i];
+      mean[i] = sum / static_cast<double>(shape.samples);
+    }
+    for (std::size_t a = 0; a < shape.samples; ++a) {
+      for (std::size_t b = 0; b <= a; ++b) {
+        double sum = 0;
+        for (std::size_t i = 0; i < shape.inputs; ++i) {
+          const double d = static_cast<double>(samples[a * shape.inputs + i]) -
+                           static_cast<double>(samples[b * shape.inputs + i]);
+          sum += d * d;
+        }
+        squared[a * shape.samples + b] = squared[b * shape.samples + a] = sum;
+      }
+    }
+  }
+
+  double TailTerm(std::size_t sample, std::size_t column) const noexcept {
+    return column == 0 ? 1.0 : Input(sample, column - 1);
+  }
+
+  Result<> Solve(const RbfConfig& config) noexcept {
+    const std::size_t n = shape.samples;
+    const std::size_t m = size();
+    const double sign = SmoothingSign(config.kernel);
+    const double scale = static_cast<double>(epsilon) * epsilon;
+    for (std::size_t row = 0; row < n; ++row) {
+      for (std::size_t c = 0; c < n; ++c)
+        matrix[row * m + c] = Phi(config.kernel, scale * squared[row * n + c]);
+      matrix[row * m + row] += sign * config.smoothing;
+      for (std::size_t c = n; c < m; ++c)
+        matrix[row * m + c] = matrix[c * m + row] = TailTerm(row, c - n);
+    }
+    for (std::size_t row = n; row < m; ++row) {
+      for (std::size_t c = n; c < m; ++c) matrix[row * m + c] = 0;
+      // The constant is never damped: it only says where zero is.
+      if (row > n) matrix[row * m + row] = -sign * config.tail_smoothing;
+    }
+    if (auto factorised = solver.Factorise(matrix, pivots); !factorised) return factorised;
+    std::ranges::fill(weights, 0.0);
+    std::ranges::copy(targets, weights.begin());
+    solver.Solve(weights, shape.outputs);
+    return {};
+  }
+
+  // Sum of the squared leave-one-out errors; the errors themselves when `errors` is not empty.
+  double LeaveOneOut(std::span<float> errors) noexcept {
+    double sum = 0;
+    for (std::size_t s = 0; s < shape.samples; ++s) {
+      const double diagonal = solver.InverseDiagonal(s, work);
+      for (std::size_t o = 0; o < shape.outputs; ++o) {
+        const double error = weights[s * shape.outputs + o] / diagonal;
+        if (!errors.empty()) errors[s * shape.outputs + o] = static_cast<float>(error);
+        sum += error * error;
+      }
+    }
+    return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
+  }
+};
+
+std::size_t Rbf::RequiredBytes(const RbfShape& c) noexcept {
+  const std::size_t samples = Padded(c.samples, kLanes);
+  const std::size_t floats = Padded(c.inputs, kLanes) + c.inputs * samples +
+                             (c.samples + c.tail_size() + 1) * OutputStride(c.outputs) + samples +
+                             OutputStride(c.outputs);
+  return floats * sizeof(float) + 5 * kAlignment;
+}
+
+std::size_t Rbf::WorkspaceBytes(const RbfShape& s) noexcept {
+  const std::size_t size = s.samples + s.tail_size();
+  const std::size_t doubles =
+      s.samples * s.samples + s.inputs + size * size + size * s.outputs + size;
+  return doubles * sizeof(double) + size * sizeof(std::uint32_t) + 6 * alignof(double);
+}
+
+Result<> Rbf::Reserve(const RbfShape& capacity, Arena& arena) noexcept {
+  if (capacity.samples == 0 || capacity.inputs == 0 || capacity.outputs == 0)
+    return Errc::kInvalidArgument;
+  const std::size_t samples = Padded(capacity.samples, kLanes);
+  const std::size_t outputs = OutputStride(capacity.outputs);
+  origin_ = MakeFloats(arena, capacity.inputs);
+  centres_ = MakeFloats(arena, capacity.inputs * samples);
+  weights_ = MakeFloats(arena, (capacity.samples + capacity.tail_size()) * outputs);
+  phi_ = MakeFloats(arena, samples);
+  sums_ = MakeFloats(arena, outputs);
+  if (origin_.empty() || centres_.empty() || weights_.empty() || phi_.empty() || sums_.empty())
+    return Errc::kFull;
+  capacity_ = capacity;
+  shape_ = {};
+  return {};
+}
+
+Result<> Rbf::Fit(const RbfConfig& config, const RbfShape& shape, std::span<const float> samples,
+                  std::span<const float> targets, std::span<std::byte> workspace, FitReport& report,
+                  std::span<float> leave_one_out) noexcept {
+  report = {};
+  shape_ = {};
+  if (shape.samples > capacity_.samples || shape.inputs > capacity_.inputs ||
+      shape.outputs > capacity_.outputs || shape.tail_size() > capacity_.tail_size())
+    return Errc::kFull;
+  if (shape.samples == 0 || shape.inputs == 0 || shape.outputs == 0 || shape.tail != config.tail ||
+      samples.size() != shape.samples * shape.inputs ||
+      targets.size() != shape.samples * shape.outputs ||
+      (!leave_one_out.empty() && leave_one_out.size() != targets.size()) || !AllFinite(samples) ||
+      !AllFinite(targets) || !(config.epsilon >= 0) || !(config.smoothing >= 0) ||
+      !(config.tail_smoothing >= 0))
+    return Errc::kInvalidArgument;
+
+  Arena arena(workspace);
+  const std::size_t size = shape.samples + shape.tail_size();
+  Problem problem{shape, samples, targets, {}, {}, {}, {}, {}, {}, {}, 1};
+  problem.squared = arena.MakeArray<double>(shape.samples * shape.samples);
+  problem.mean = arena.MakeArray<double>(shape.inputs);
+  problem.matrix = arena.MakeArray<double>(size * size);
+  problem.weights = arena.MakeArray<double>(size * shape.outputs);
+  problem.work = arena.MakeArray<double>(size);
+  problem.pivots = arena.MakeArray<std::uint32_t>(size);
+  if (problem.pivots.empty() || problem.work.empty() || problem.weights.empty() ||
+      problem.matrix.empty() || problem.mean.empty() || problem.squared.empty())
+    return Errc::kInvalidArgument;
+
+  problem.MeasureDistances();
+  if (config.smoothing == 0) {
+    // Relative to the spread of the samples; 1e-12 of a squared distance is 1e-6 of a distance,
+    // where float inputs stop telling samples apart.
+    const double spread = *std::ranges::max_element(problem.squared);
+    for (std::size_t a = 0; a < shape.samples; ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        if (problem.squared[a * shape.samples + b] > 1e-12 * spread) continue;
+        report.duplicate_first = b;
+        report.duplicate_second = a;
+        return Errc::kSingular;
+      }
+    }
+  }
+  problem.epsilon = config.epsilon;
+  if (config.epsilon == 0) {
+    if (auto chosen = ChooseEpsilon(config, problem); !chosen) return chosen;
+  }
+  report.epsilon = problem.epsilon;
+  if (auto solved = problem.Solve(config); !solved) {
+    const std::size_t column = problem.solver.dependent_column();
+    if (column < shape.samples) {
+      report.dependent_sample = column;
+    } else {
+      report.tail_undetermined = true;
+    }
+    return solved;
+  }
+  if (!leave_one_out.empty()) problem.LeaveOneOut(leave_one_out);
+  kernel_ = config.kernel;
+  Store(problem);
+  return {};
+}
+
+// Scans two decades around the reciprocal of the mean distance, then halves the step around the
+// best. Shapes whose system is singular count as infinitely bad.
+Result<> Rbf::ChooseEpsilon(const RbfConfig& config, Problem& problem) const noexcept {
+  const auto pairs = static_cast<double>(problem.squared.size());
+  double sum = 0;
+  for (const double squared : problem.squared) sum += std::sqrt(squared);
+  const double base = sum > 0 ? pairs / sum : 1.0;
+  problem.epsilon = static_cast<float>(base);
+  if (!HasShape(config.kernel)) return {};
+
+  double best = std::numeric_limits<double>::infinity();
+  double best_exponent = 0;
+  const auto attempt = [&](double exponent) noexcept {
+    problem.epsilon = static_cast<float>(base * std::exp2(exponent));
+    if (!problem.Solve(config)) return;
+    const double error = problem.LeaveOneOut({});
+    if (error >= best) return;
+    best = error;
+    best_exponent = exponent;
+  };
+  for (int exponent = -4; exponent <= 4; ++exponent) attempt(exponent);
+  for (double step = 0.5; step > 0.1; step /= 2) {
+    const double middle = best_exponent;
+    attempt(middle - step);
+    attempt(middle + step);
+  }
+  problem.epsilon = static_cast<float>(base * std::exp2(best_exponent));
+  return {};
+}
+
+void Rbf::Store(const Problem& problem) noexcept {
+  shape_ = problem.shape;
+  epsilon_ = problem.epsilon;
+  sample_stride_ = Padded(shape_.samples, kLanes);
+  output_stride_ = OutputStride(shape_.outputs);
+  std::ranges::fill(centres_, 0.0F);
+  std::ranges::fill(weights_, 0.0F);
+  for (std::size_t i = 0; i < shape_.inputs; ++i) {
+    origin_[i] = static_cast<float>(problem.mean[i]);
+    for (std::size_t s = 0; s < shape_.samples; ++s)
+      centres_[i * sample_stride_ + s] = static_cast<float>(epsilon_ * problem.Input(s, i));
+  }
+  for (std::size_t row = 0; row < problem.size(); ++row) {
+    // Evaluate works in units of 1 / epsilon; the tail's linear columns are brought there too.
+    const double scale = row > shape_.samples ? 1.0 / epsilon_ : 1.0;
+    for (std::size_t o = 0; o < shape_.outputs; ++o)
+      weights_[row * output_stride_ + o] =
+          static_cast<float>(scale * problem.weights[row * shape_.outputs + o]);
+  }
+}
+
+void Rbf::Evaluate(std::span<const float> x, std::span<float> y) const noexcept {
+  const std::size_t n = shape_.samples;
+  if (n == 0) {
+    std::ranges::fill(y, 0.0F);
+    return;
+  }
+  float* phi = phi_.data();
+  float* sums = sums_.data();
+  std::fill_n(phi, sample_stride_, 0.0F);
+  std::fill_n(sums, output_stride_, 0.0F);
+  const float* tail = weights_.data() + n * output_stride_;
+  if (shape_.tail != Tail::kNone) std::copy_n(tail, output_stride_, sums);
+  for (std::size_t i = 0; i < shape_.inputs; ++i) {
+    const float u = epsilon_ * (x[i] - origin_[i]);
+    AddSquaredDifferences(u, centres_.data() + i * sample_stride_, phi, sample_stride_);
+    if (shape_.tail == Tail::kLinear)
+      AddScaled(u, tail + (i + 1) * output_stride_, sums, output_stride_);
+  }
+  ApplyKernel(kernel_, phi, sample_stride_);
+  for (std::size_t s = 0; s < n; ++s)
+    AddScaled(phi[s], weights_.data() + s * output_stride_, sums, output_stride_);
+  std::copy_n(sums, shape_.outputs, y.data());
+}
+
+}  // namespace facewire::rbf

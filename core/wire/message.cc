@@ -1,0 +1,59 @@
+#include "core/wire/message.h"
+
+namespace facewire::wire {
+
+const char* Name(CommandCode code) noexcept {
+  switch (code) {
+    case CommandCode::kPing:
+      return "ping";
+    case CommandCode::kDescribeRig:
+      return "describe_rig";
+    case CommandCode::kCalibrateNeutral:
+      return "calibrate_neutral";
+    case CommandCode::kRest:
+      return "rest";
+    case CommandCode::kStop:
+      return "stop";
+    case CommandCode::kRelease:
+      return "release";
+  }
+  return "unknown";
+}
+
+const char* Name(CommandResult result) noexcept {
+  switch (result) {
+    case CommandResult::kOk:
+      return "ok";
+    case CommandResult::kUnknown:
+      return "unknown_command";
+    case CommandResult::kRefused:
+      return "refused";
+    case CommandResult::kNoFace:
+      return "no_face";
+    case CommandResult::kFailed:
+      return "failed";
+  }
+  return "failed";
+}
+
+const char* Name(ChannelKind kind) noexcept {
+  switch (kind) {
+    case ChannelKind::kParameter:
+      return "parameter";
+    case ChannelKind::kPositionX:
+      return "position_x";
+    case ChannelKind::kPositionY:
+      return "position_y";
+    case ChannelKind::kPositionZ:
+      return "position_z";
+    case ChannelKind::kPitch:
+      return "pitch";
+    case ChannelKind::kYaw:
+      return "yaw";
+    case ChannelKind::kRoll:
+      return "roll";
+  }
+  return "parameter";
+}
+
+}  // namespace facewire::wire

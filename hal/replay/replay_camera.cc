@@ -1,0 +1,215 @@
+#include "hal/replay/replay_camera.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/videoio.hpp>
+#include <utility>
+
+#include "hal/posix/errors.h"
+#include "hal/posix/unique_fd.h"
+
+namespace facewire::hal::replay {
+namespace {
+
+constexpr double kAssumedFps = 30;
+constexpr double kHighestFps = 1000;  // what a file without a rate claims is often its time base
+
+// OpenCV and FFmpeg report a damaged file on stderr; this camera reports it by an Errc. FFmpeg's
+// level is read from the environment when the first file is opened, and an operator's own setting
+// wins.
+class QuietDecoder {
+ public:
+  QuietDecoder() : before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {
+    constexpr const char* kAvLogQuiet = "-8";
+    ::setenv("OPENCV_FFMPEG_LOGLEVEL", kAvLogQuiet, 0);
+  }
+  ~QuietDecoder() { cv::utils::logging::setLogLevel(before_); }
+  QuietDecoder(const QuietDecoder&) = delete;
+  QuietDecoder& operator=(const QuietDecoder&) = delete;
+
+ private:
+  cv::utils::logging::LogLevel before_;
+};
+
+// FFmpeg says only "no" to whatever it cannot open.
+Result<> CheckReadable(const std::string& path) {
+  posix::UniqueFd fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!fd) return posix::OpenError(errno);
+  struct stat file {};
+  if (::fstat(fd.get(), &file) != 0) return Errc::kIo;
+  if (!S_ISREG(file.st_mode)) return Errc::kUnsupported;
+  return {};
+}
+
+}  // namespace
+
+// The file as a sequence of frames, from its beginning, once. Exceptions of OpenCV end here.
+class ReplayCamera::Decoder {
+ public:
+  // kUnsupported: not a video, or nothing in it can be decoded.
+  Result<> Open(const std::string& path) {
+    try {
+      const QuietDecoder quiet;
+      // Absolute, because FFmpeg takes "name:rest" for a protocol.
+      const std::string absolute = std::filesystem::absolute(path).string();
+      const bool open = capture_.open(absolute, cv::CAP_FFMPEG,
+                                      {cv::CAP_PROP_HW_ACCELERATION, cv::VIDEO_ACCELERATION_NONE});
+      if (!open || !capture_.read(frame_) || frame_.empty() || frame_.type() != CV_8UC3) {
+        return Errc::kUnsupported;
+      }
+    } catch (const std::exception&) {  // OpenCV's and the file system's
+      return Errc::kUnsupported;
+    }
+    decoded_ = 1;
+    return {};
+  }
+
+  int width_px() const { return frame_.cols; }
+  int height_px() const { return frame_.rows; }
+  double fps() const { return capture_.get(cv::CAP_PROP_FPS); }
+  double frames_in_file() const { return capture_.get(cv::CAP_PROP_FRAME_COUNT); }
+  // Frames decoded so far; the last of them is current().
+  std::uint64_t decoded() const { return decoded_; }
+  const cv::Mat& current() const { return frame_; }
+
+  // False at the end. `wanted` false passes over a frame without the work of converting it.
+  bool Advance(bool wanted) {
+    try {
+      const QuietDecoder quiet;
+      if (!capture_.grab()) return false;
+      if (wanted) {
+        const cv::Size size = frame_.size();
+        if (!capture_.retrieve(frame_) || frame_.size() != size) return false;
+      }
+    } catch (const cv::Exception&) {
+      return false;
+    }
+    ++decoded_;
+    return true;
+  }
+
+ private:
+  cv::VideoCapture capture_;
+  cv::Mat frame_;
+  std::uint64_t decoded_ = 0;
+};
+
+ReplayCamera::ReplayCamera(ReplayConfig config, Clock& clock)
+    : config_(std::move(config)), clock_(clock) {}
+
+ReplayCamera::~ReplayCamera() = default;
+
+Result<> ReplayCamera::Start() {
+  if (pacer_) return {};
+  if (config_.loop == LoopMode::kPingPong && config_.memory_bytes == 0) {
+    return Errc::kInvalidArgument;
+  }
+  info_ = {};
+  Result<> ready = StartDecoding();
+  if (ready && config_.memory_bytes > 0) ready = DecodeAhead();
+  if (!ready) {
+    Stop();
+    return ready;
+  }
+  next_ = 0;
+  ended_ = false;
+  pacer_.emplace(clock_, config_.pace,
+                 info_.fps);  // decoding ahead takes none of the recording's time
+  return {};
+}
+
+Result<> ReplayCamera::StartDecoding() {
+  if (Result<> readable = CheckReadable(config_.path); !readable) return readable;
+  decoder_ = std::make_unique<Decoder>();
+  if (Result<> open = decoder_->Open(config_.path); !open) return open;
+  info_.width_px = decoder_->width_px();
+  info_.height_px = decoder_->height_px();
+  info_.frame_bytes =
+      3 * static_cast<std::size_t>(info_.width_px) * static_cast<std::size_t>(info_.height_px);
+  info_.fps = decoder_->fps();
+  info_.fps_assumed = !(info_.fps > 0 && info_.fps <= kHighestFps);
+  if (info_.fps_assumed) info_.fps = kAssumedFps;
+  const double claim = decoder_->frames_in_file();
+  info_.frames_in_file = claim >= 1 && claim < 1e12 ? static_cast<std::uint64_t>(claim) : 0;
+  return {};
+}
+
+Result<> ReplayCamera::DecodeAhead() {
+  std::size_t room = config_.memory_bytes / info_.frame_bytes;
+  if (room == 0) return Errc::kFull;
+  if (info_.frames_in_file > 0) room = std::min<std::size_t>(room, info_.frames_in_file);
+  info_.block_bytes = room * info_.frame_bytes;
+  block_ = std::make_unique_for_overwrite<std::uint8_t[]>(info_.block_bytes);
+  do {
+    std::uint8_t* at = block_.get() + info_.frames_held * info_.frame_bytes;
+    decoder_->current().copyTo(cv::Mat(info_.height_px, info_.width_px, CV_8UC3, at));
+    ++info_.frames_held;
+  } while (info_.frames_held < room && decoder_->Advance(true));
+  decoder_.reset();  // and its threads
+  return {};
+}
+
+// The pixels of the n-th frame of a streamed recording, n at or after the one decoded last. kEnd,
+// kIo.
+Result<Plane> ReplayCamera::DecodeUpTo(std::uint64_t n) {
+  while (next_ <= n) {
+    // Frame 0 of a round was decoded when the file was opened.
+    const bool first = next_ == 0;
+    if (!first && !decoder_->Advance(next_ == n)) {
+      if (config_.loop == LoopMode::kNone) return Errc::kEnd;
+      const ReplayInfo before = info_;
+      if (Result<> again = StartDecoding(); !again) return Errc::kIo;
+      if (info_.frame_bytes != before.frame_bytes || info_.width_px != before.width_px) {
+        return Errc::kIo;  // another file has taken its place
+      }
+    }
+    ++next_;
+  }
+  const cv::Mat& picture = decoder_->current();
+  return Plane{.data = picture.data, .stride_bytes = static_cast<int>(picture.step[0])};
+}
+
+Result<Frame> ReplayCamera::Acquire(std::chrono::milliseconds timeout) {
+  if (!pacer_) return Errc::kDisconnected;
+  if (ended_) return Errc::kEnd;
+  const bool finite = block_ != nullptr && config_.loop == LoopMode::kNone;
+  if (finite && next_ >= info_.frames_held) return Errc::kEnd;
+  const Result<std::uint64_t> n = pacer_->Wait(next_, timeout);
+  if (!n) return n.error();
+
+  Plane pixels{.data = nullptr, .stride_bytes = 3 * info_.width_px};
+  if (block_ != nullptr) {
+    next_ = *n + 1;
+    if (finite && *n >= info_.frames_held) return Errc::kEnd;
+    pixels.data = block_.get() + LoopIndex(config_.loop, *n, info_.frames_held) * info_.frame_bytes;
+  } else {
+    const Result<Plane> decoded = DecodeUpTo(*n);
+    if (!decoded) {
+      ended_ = decoded.error() == Errc::kEnd;
+      return decoded.error();
+    }
+    pixels = *decoded;
+  }
+  Frame frame{.seq = *n, .captured = pacer_->CapturedAt(*n), .image = {}};
+  frame.image.format = PixelFormat::kBgr24;
+  frame.image.width_px = info_.width_px;
+  frame.image.height_px = info_.height_px;
+  frame.image.planes[0] = pixels;
+  return frame;
+}
+
+void ReplayCamera::Stop() {
+  pacer_.reset();
+  decoder_.reset();
+  block_.reset();
+}
+
+}  // namespace facewire::hal::replay

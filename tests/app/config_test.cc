@@ -1,0 +1,179 @@
+#include "app/config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "app/toml_reader.h"
+#include "tests/app/scratch.h"
+
+namespace facewire::app {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+using ::testing::StartsWith;
+
+std::string Complaint(const std::string& text) {
+  const Scratch scratch;
+  const auto file = scratch.Write("facewire.toml", text);
+  const std::string what = BadInputOf([&] { (void)LoadConfig(file); });
+  return std::regex_replace(what, std::regex(file.string()), "F");
+}
+
+struct Row {
+  const char* text;
+  const char* complaint;
+};
+
+TEST(LoadConfig, SaysWhatIsWrongWhereAndWhatWouldBeRight) {
+  const Row table[] = {
+      {"[camera]\nwidht_px = 640\n",
+       "F:2:1: unknown key \"camera.widht_px\"; did you mean \"width_px\"?"},
+      {"[kamera]\n", "F:1:2: unknown key \"kamera\"; did you mean \"camera\"?"},
+      {"[camera]\nfps = \"thirty\"\n", "F:2:7: camera.fps: is a text; expected a whole number"},
+      {"[camera]\nfps = 29.97\n", "F:2:7: camera.fps: is a number; expected a whole number"},
+      {"[camera]\nfps = 0\n", "F:2:7: camera.fps: 0 is out of range; allowed: 1 to 240 Hz"},
+      {"[camera]\nfps = 99999999999\n",
+       "F:2:7: camera.fps: 1e+11 is out of range; allowed: 1 to 240 Hz"},
+      {"[tracker]\nmin_presence = nan\n",
+       "F:2:16: tracker.min_presence: nan is out of range; allowed: 0 to 1"},
+      {"[tracker]\nmodel = \"atention\"\n",
+       "F:2:9: tracker.model: \"atention\" is none of \"attention\", \"mesh\"; did you mean "
+       "\"attention\"?"},
+      {"camera = 3\n", "F:1:10: camera: is a number; expected a table"},
+      {"[camera]\ndevice = \"usb\"\n",
+       "F:2:10: camera.device: \"usb\" is not understood; expected \"v4l2:/dev/videoN\" or "
+       "\"replay\""},
+      {"[camera]\ndevice = \"replay\"\n",
+       "F:2:10: camera.device: is \"replay\" but camera.replay.file names no video"},
+      {"[camera.replay]\nloop = \"ping-pong\"\n",
+       "F:2:8: camera.replay.loop: \"ping-pong\" plays backwards, too, from memory; set "
+       "memory_mib"},
+      {"[host]\nline = \"serial:\"\n",
+       "F:2:8: host.line: \"serial:\" is not understood; expected \"serial:/dev/ttyACM0\", "
+       "\"pty:LINK\" or \"none\""},
+      {"[states]\nhold_ms = -1\n",
+       "F:2:11: states.hold_ms: -1 is out of range; allowed: 0 to 600000 ms"},
+      {"[states]\nneutral_frames = 0\n",
+       "F:2:18: states.neutral_frames: 0 is out of range; allowed: 1 to 1000 frames"},
+      {"[filter.eyes]\nbeta = false\n",
+       "F:2:8: filter.eyes.beta: is true or false; expected a number"},
+      {"[host]\nmin_rate_hz = 5\n",
+       "F:2:15: host.min_rate_hz: 5 is out of range; allowed: 20 to 240 Hz"},
+  };
+  for (const Row& row : table) EXPECT_EQ(Complaint(row.text), row.complaint) << row.text;
+}
+
+TEST(LoadConfig, ReportsEveryProblemAtOnceInTheOrderOfTheFile) {
+  const std::string what =
+      Complaint("[states]\nhold_ms = true\neaze_ms = 3\n[camera]\nfps = 1000\n[filter]\nx = 1\n");
+  EXPECT_EQ(what,
+            "F:2:11: states.hold_ms: is true or false; expected a whole number\n"
+            "F:3:1: unknown key \"states.eaze_ms\"; did you mean \"ease_ms\"?\n"
+            "F:5:7: camera.fps: 1000 is out of range; allowed: 1 to 240 Hz\n"
+            "F:7:1: unknown key \"filter.x\"; known: eyes, mouth, rest");
+}
+
+TEST(LoadConfig, GivesThePlaceOfASyntaxError) {
+  EXPECT_THAT(Complaint("[camera]\nfps = \n"), StartsWith("F:2:7: not valid TOML: "));
+  EXPECT_THAT(Complaint("[camera]\nfps = 1\nfps = 2\n"), StartsWith("F:3:"));
+}
+
+TEST(LoadConfig, SaysWhenThereIsNoFile) {
+  const Scratch scratch;
+  EXPECT_THAT(BadInputOf([&] { (void)LoadConfig(scratch / "none.toml"); }),
+              HasSubstr("none.toml: cannot be read"));
+  EXPECT_THAT(BadInputOf([&] { (void)LoadConfig(scratch / ""); }), HasSubstr("is a folder"));
+}
+
+TEST(LoadConfig, ResolvesPathsAgainstTheFolderOfTheFile) {
+  const Scratch scratch;
+  const auto file = scratch.Write("f.toml",
+                                  "[camera.replay]\nfile = \"a/../clip.mp4\"\n"
+                                  "[host]\nline = \"pty:line\"\n"
+                                  "[tracker]\nnetworks = \"/n\"\n[character]\nprofile = \"\"\n");
+  const Config config = LoadConfig(file);
+  EXPECT_EQ(config.camera.replay.file, scratch / "clip.mp4");
+  EXPECT_EQ(config.character.rig, scratch / "rig.toml") << "a default, too";
+  EXPECT_EQ(config.host.line, "pty:" + (scratch / "line").string());
+  EXPECT_EQ(config.tracker.networks, "/n");
+  EXPECT_TRUE(config.character.profile.empty()) << "an empty path stays empty";
+}
+
+TEST(LoadConfig, AcceptsAnEmptyFile) {
+  const Scratch scratch;
+  const Config config = LoadConfig(scratch.Write("f.toml", ""));
+  EXPECT_EQ(config.camera.fps, 30);
+}
+
+// Two configurations are equal when the reader, asked for every key, makes the same of them.
+TEST(ExampleConfig, ListsEveryKeyWithItsDefault) {
+  const std::filesystem::path example =
+      std::filesystem::path(FACEWIRE_SOURCE_DIR) / "app/share/facewire.toml";
+  const Config read = LoadConfig(example);
+  const Scratch scratch;
+  const Config defaults = LoadConfig(scratch.Write("facewire.toml", ""));
+  EXPECT_EQ(read.camera.device, defaults.camera.device);
+  EXPECT_EQ(read.camera.width_px, defaults.camera.width_px);
+  EXPECT_EQ(read.camera.height_px, defaults.camera.height_px);
+  EXPECT_EQ(read.camera.fps, defaults.camera.fps);
+  EXPECT_EQ(read.camera.replay.file, defaults.camera.replay.file);
+  EXPECT_EQ(read.camera.replay.pace, defaults.camera.replay.pace);
+  EXPECT_EQ(read.camera.replay.loop, defaults.camera.replay.loop);
+  EXPECT_EQ(read.camera.replay.memory_mib, defaults.camera.replay.memory_mib);
+  EXPECT_EQ(read.tracker.tracker.model, defaults.tracker.tracker.model);
+  EXPECT_EQ(read.tracker.tracker.min_detection_score, defaults.tracker.tracker.min_detection_score);
+  EXPECT_EQ(read.tracker.tracker.min_presence, defaults.tracker.tracker.min_presence);
+  EXPECT_EQ(read.tracker.networks, defaults.tracker.networks);
+  for (const auto group :
+       {&filter::FilterConfig::eyes, &filter::FilterConfig::mouth, &filter::FilterConfig::rest}) {
+    EXPECT_EQ((read.filter.*group).min_cutoff_hz, (defaults.filter.*group).min_cutoff_hz);
+    EXPECT_EQ((read.filter.*group).beta, (defaults.filter.*group).beta);
+    EXPECT_EQ((read.filter.*group).derivative_cutoff_hz,
+              (defaults.filter.*group).derivative_cutoff_hz);
+  }
+  EXPECT_EQ(read.pose.vertical_fov_deg, defaults.pose.vertical_fov_deg);
+  EXPECT_EQ(read.character.rig.filename(), defaults.character.rig.filename());
+  EXPECT_EQ(read.character.profile, defaults.character.profile);
+  EXPECT_EQ(read.neutral.folder, defaults.neutral.folder);
+  EXPECT_EQ(read.neutral.auto_s, defaults.neutral.auto_s);
+  EXPECT_EQ(read.host.line, defaults.host.line);
+  EXPECT_EQ(read.host.baud, defaults.host.baud);
+  EXPECT_EQ(read.host.write_budget_ms, defaults.host.write_budget_ms);
+  EXPECT_EQ(read.host.min_rate_hz, defaults.host.min_rate_hz);
+  EXPECT_EQ(read.host.describe_every_s, defaults.host.describe_every_s);
+  EXPECT_EQ(read.states.start_ramp, defaults.states.start_ramp);
+  EXPECT_EQ(read.states.acquire, defaults.states.acquire);
+  EXPECT_EQ(read.states.hold, defaults.states.hold);
+  EXPECT_EQ(read.states.ease, defaults.states.ease);
+  EXPECT_EQ(read.states.rest_after, defaults.states.rest_after);
+  EXPECT_EQ(read.states.camera_timeout, defaults.states.camera_timeout);
+  EXPECT_EQ(read.states.neutral_frames, defaults.states.neutral_frames);
+}
+
+// Every key that the reader knows stands in the example: the known keys are named by the complaint
+// about one that resembles none.
+TEST(ExampleConfig, OmitsNoKeyThatTheReaderKnows) {
+  const toml::table example =
+      ParseTomlFile(std::filesystem::path(FACEWIRE_SOURCE_DIR) / "app/share/facewire.toml");
+  for (const char* path :
+       {"", "camera", "camera.replay", "tracker", "filter", "filter.eyes", "filter.mouth",
+        "filter.rest", "pose", "character", "neutral", "host", "states"}) {
+    const std::string header = *path == 0 ? "" : "[" + std::string(path) + "]\n";
+    const std::string what = Complaint(header + "qqqqqqqqqqqqqqqqqqqq = 1\n");
+    const std::size_t known = what.find("known: ");
+    ASSERT_NE(known, std::string::npos) << path << ": " << what;
+    std::istringstream keys(what.substr(known + 7));
+    for (std::string key; std::getline(keys >> std::ws, key, ',');) {
+      const std::string full = *path == 0 ? key : path + ("." + key);
+      EXPECT_TRUE(example.at_path(full)) << full << " is not in the example";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace facewire::app

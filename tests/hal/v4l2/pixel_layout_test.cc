@@ -1,0 +1,63 @@
+#include "hal/v4l2/pixel_layout.h"
+
+#include <gtest/gtest.h>
+#include <linux/videodev2.h>
+
+#include "hal/v4l2/v4l2_camera.h"
+
+namespace facewire::hal::v4l2 {
+namespace {
+
+TEST(PixelLayout, EveryFormatHasACodeAndComesBackFromIt) {
+  for (const PixelFormat format : EveryFormat()) EXPECT_EQ(FormatOf(FourccOf(format)), format);
+  EXPECT_EQ(FormatOf(V4L2_PIX_FMT_MJPEG), std::nullopt);
+  EXPECT_STREQ(FourccText(V4L2_PIX_FMT_MJPEG).data(), "MJPG");
+  EXPECT_STREQ(FourccText(0x01020304).data(), "????");
+}
+
+struct Row {
+  PixelFormat format;
+  std::uint32_t stride;
+  std::array<int, 3> strides;
+  std::array<std::size_t, 3> offsets;
+  std::size_t bytes;
+};
+const Row kRows[] = {
+    {PixelFormat::kGrey8, 0, {8, 0, 0}, {0, 0, 0}, 8 * 4},
+    {PixelFormat::kGrey8, 16, {16, 0, 0}, {0, 0, 0}, 16 * 4},
+    {PixelFormat::kYuyv, 0, {16, 0, 0}, {0, 0, 0}, 16 * 4},
+    {PixelFormat::kRgb24, 0, {24, 0, 0}, {0, 0, 0}, 24 * 4},
+    {PixelFormat::kBgr24, 32, {32, 0, 0}, {0, 0, 0}, 32 * 4},
+    {PixelFormat::kNv12, 0, {8, 8, 0}, {0, 32, 0}, 48},
+    {PixelFormat::kNv12, 64, {64, 64, 0}, {0, 256, 0}, 384},
+    {PixelFormat::kI420, 0, {8, 4, 4}, {0, 32, 40}, 48},
+    {PixelFormat::kI420, 64, {64, 32, 32}, {0, 256, 320}, 384},
+};
+
+TEST(PixelLayout, PlacesThePlanesOfAnEightByFourPicture) {
+  for (const Row& row : kRows) {
+    const Result<PixelLayout> layout = LayOut(row.format, 8, 4, row.stride);
+    ASSERT_TRUE(layout);
+    EXPECT_EQ(layout->bytes, row.bytes);
+    const std::uint8_t buffer[1] = {};
+    const ImageView view = layout->At(buffer);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(view.planes[i].stride_bytes, row.strides[i]);
+      const std::uint8_t* expected = row.strides[i] > 0 ? buffer + row.offsets[i] : nullptr;
+      EXPECT_EQ(view.planes[i].data, expected);
+    }
+  }
+}
+
+TEST(PixelLayout, RefusesWhatContradictsItself) {
+  EXPECT_EQ(LayOut(PixelFormat::kYuyv, 8, 4, 15).error(), Errc::kUnsupported);
+  EXPECT_EQ(LayOut(PixelFormat::kYuyv, 7, 4, 0).error(), Errc::kUnsupported);
+  EXPECT_EQ(LayOut(PixelFormat::kNv12, 8, 3, 0).error(), Errc::kUnsupported);
+  EXPECT_EQ(LayOut(PixelFormat::kGrey8, 0, 4, 0).error(), Errc::kUnsupported);
+  EXPECT_EQ(LayOut(PixelFormat::kGrey8, 8, -4, 0).error(), Errc::kUnsupported);
+  EXPECT_EQ(LayOut(PixelFormat::kGrey8, 1 << 20, 4, 0).error(), Errc::kUnsupported);
+  EXPECT_EQ(LayOut(PixelFormat::kGrey8, 8, 4, 0xFFFFFFFF).error(), Errc::kUnsupported);
+}
+
+}  // namespace
+}  // namespace facewire::hal::v4l2

@@ -1,0 +1,52 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "app/error.h"
+#include "tools/facewire/commands.h"
+
+namespace {
+
+// The exit codes are a contract with scripts (README.md of this folder).
+constexpr int kFailed = 1;
+constexpr int kBadInput = 2;
+
+int Report(const std::string& what, int code) {
+  std::fprintf(stderr, "facewire: %s\n", what.c_str());
+  return code;
+}
+
+void AddCommands(CLI::App& facewire) {
+  using namespace facewire::tools;  // NOLINT(google-build-using-namespace): this list and nothing else
+  AddTrack(facewire);
+  AddRetarget(facewire);
+  AddTrain(facewire);
+  AddMonitor(facewire);
+  AddSheet(facewire);
+  AddDoctor(facewire);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App facewire("facewire: from a performer's face to a character's bones and blend shapes.", "facewire");
+  facewire.set_version_flag("--version", "facewire " FACEWIRE_VERSION);
+  facewire.require_subcommand(1);
+  facewire.get_formatter()->column_width(34);
+  facewire.footer("Exit codes: 0 done, 1 failed at work, 2 bad usage or bad input.\n"
+                  "`facewire COMMAND --help` tells more about a command.");
+  AddCommands(facewire);
+  try {
+    facewire.parse(argc, argv);
+    return 0;
+  } catch (const CLI::Success& wanted) {  // --help, --version
+    return facewire.exit(wanted);
+  } catch (const CLI::ParseError& error) {
+    return Report(std::string(error.what()) + "; see facewire --help", kBadInput);
+  } catch (const facewire::app::BadInput& error) {
+    return Report(error.what(), kBadInput);
+  } catch (const std::exception& error) {
+    return Report(error.what(), kFailed);
+  }
+}

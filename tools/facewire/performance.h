@@ -1,0 +1,47 @@
+#ifndef FACEWIRE_TOOLS_FACEWIRE_PERFORMANCE_H_
+#define FACEWIRE_TOOLS_FACEWIRE_PERFORMANCE_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/face_pose.h"
+#include "core/retarget/expression_mapping.h"
+#include "tools/facewire/face_reader.h"
+
+namespace facewire::tools {
+
+// One frame of a recorded performance, with head motion removed; no face where none was seen.
+struct Moment {
+  std::uint64_t frame = 0;
+  std::int64_t t_us = 0;  // since the recording's first frame
+  std::optional<FacePose> face;
+};
+
+// A recorded performance, frame by frame.
+class Performance {
+ public:
+  virtual ~Performance() = default;
+  // nullopt at the end. Throws BadInput, Failure.
+  virtual std::optional<Moment> Next() = 0;
+};
+
+// A video: tracked, filtered and freed from head motion as the service does it.
+std::unique_ptr<Performance> OpenVideo(const FaceOptions& options);
+
+// Recorded markers (tools/markers/take.h), ordered as the mapping reads them. `rigid` names markers that
+// only follow the head, at least three not on one line: head motion is removed by their fit to the first
+// frame that has them all; without names, the take counts as free of head motion. A frame with a gap in
+// a marker that is read has no face. Throws BadInput, naming the markers that the take lacks.
+std::unique_ptr<Performance> OpenMarkers(const std::string& path, const retarget::ExpressionMapping& mapping,
+                                         const std::vector<std::string>& rigid);
+
+// True when the name ends as a marker file's does.
+bool IsMarkerFile(const std::string& path);
+
+}  // namespace facewire::tools
+
+#endif  // FACEWIRE_TOOLS_FACEWIRE_PERFORMANCE_H_

@@ -1,0 +1,31 @@
+#ifndef FACEWIRE_TOOLS_FACEWIRE_REGION_FILE_H_
+#define FACEWIRE_TOOLS_FACEWIRE_REGION_FILE_H_
+
+#include <filesystem>
+#include <vector>
+
+#include "app/profile_file.h"
+#include "core/rbf/rbf.h"
+
+namespace facewire::tools {
+
+// How a face is divided for training (described in tools/facewire/README.md), for the markers and
+// signals of `training`. What a region does not set comes from `defaults`.
+// BadInput, one line with file and line: not TOML, unknown keys, markers, targets or kernels,
+// numbers out of range, a target in no region or in two.
+std::vector<retarget::RegionConfig> ReadRegions(const std::filesystem::path& path,
+                                                const app::TrainingSet& training,
+                                                const rbf::RbfConfig& defaults);
+
+// One region that reads every marker and gives every signal.
+// BadInput: more markers or signals than a profile holds.
+retarget::RegionConfig WholeFace(const app::TrainingSet& training, const rbf::RbfConfig& config);
+
+// Names of kernels and tails on the command line and in region files. BadInput: `where`, and the
+// names that would be right.
+rbf::Kernel ParseKernel(std::string_view name, const std::string& where);
+rbf::Tail ParseTail(std::string_view name, const std::string& where);
+
+}  // namespace facewire::tools
+
+#endif  // FACEWIRE_TOOLS_FACEWIRE_REGION_FILE_H_

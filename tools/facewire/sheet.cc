@@ -1,0 +1,143 @@
+#include "tools/sheet/sheet.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/error.h"
+#include "app/rig_file.h"
+#include "tools/facewire/commands.h"
+#include "tools/facewire/face_reader.h"
+#include "tools/facewire/output_file.h"
+#include "tools/facewire/recording.h"
+#include "tools/sheet/pick.h"
+
+namespace facewire::tools {
+namespace {
+
+struct SheetOptions {
+  std::string recording;
+  std::string rig;
+  std::string out;
+  std::size_t moments = 6;
+  std::uint64_t first = 0;
+  std::vector<std::string> figures;
+  FaceOptions face;
+};
+
+std::string Format(const char* format, double value) {
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+std::vector<Figure> FiguresFor(const RecordingFigures& figures, const std::vector<std::string>& more) {
+  std::vector<Figure> all{
+      {std::to_string(figures.frames), "frames"},
+      {Format("%.1f", figures.fps), "frames a second"},
+      {Format("%.1f ms", figures.latency_p50_ms), "latency, median"},
+      {Format("%.1f ms", figures.latency_p99_ms), "latency, 99 %"},
+      {std::to_string(figures.missed), "frames dropped"},
+      {std::to_string(figures.losses), "face losses"},
+      {std::to_string(figures.blinks), "blinks"},
+  };
+  for (const std::string& figure : more) {
+    const std::size_t equals = figure.find('=');
+    if (equals == std::string::npos) {
+      throw app::BadInput("--figure " + figure + ": LABEL=VALUE would be right");
+    }
+    all.push_back({figure.substr(equals + 1), figure.substr(0, equals)});
+  }
+  return all;
+}
+
+// The poses that may be drawn: those that followed a face, of pictures that the video has in this order.
+std::vector<RigPose> Drawable(const std::vector<RecordedPose>& recording, std::uint64_t first) {
+  std::vector<RigPose> poses;
+  for (const RecordedPose& recorded : recording) {
+    if (recorded.tracking && (first == 0 || recorded.pose.seq < first)) poses.push_back(recorded.pose);
+  }
+  if (poses.empty()) throw app::BadInput("the recording has no frame in which a face was followed");
+  return poses;
+}
+
+cv::Mat PictureOf(const Frame& frame) {
+  if (frame.image.format != PixelFormat::kBgr24) throw app::Failure("the video's pictures are not BGR");
+  const Plane& plane = frame.image.planes[0];
+  // OpenCV has no read-only view; the copy is what is kept.
+  return cv::Mat(frame.image.height_px, frame.image.width_px, CV_8UC3, const_cast<std::uint8_t*>(plane.data),
+                 static_cast<std::size_t>(plane.stride_bytes))
+      .clone();
+}
+
+// Plays the video, follows the face as the service did, and keeps the pictures of the moments.
+std::vector<Moment> TakeMoments(const std::vector<RigPose>& poses, const std::vector<Pick>& picks, double start_s,
+                                FaceReader& reader) {
+  std::vector<Moment> moments;
+  for (auto pick = picks.begin(); pick != picks.end();) {
+    const auto frame = reader.Next();
+    if (!frame) break;
+    const auto face = reader.Track();
+    const RigPose& pose = poses[pick->index];
+    if (frame->seq < pose.seq) continue;
+    Moment moment;
+    moment.caption = pick->caption;
+    moment.frame = pose.seq;
+    moment.time_s = std::chrono::duration<double>(pose.captured.time_since_epoch()).count() - start_s;
+    moment.picture = PictureOf(*frame);
+    if (face) moment.landmarks = *face;
+    moment.pose = pose;
+    moments.push_back(std::move(moment));
+    ++pick;
+  }
+  if (moments.size() < picks.size()) {
+    throw app::BadInput("the video ends before frame " + std::to_string(poses[picks[moments.size()].index].seq) +
+                        " of the recording; --first N says how many frames the recording shows of it");
+  }
+  return moments;
+}
+
+void DrawSheetFile(const SheetOptions& options) {
+  const Rig rig = app::LoadRig(options.rig);
+  const std::vector<RecordedPose> recording = ReadRecording(options.recording, rig);
+  const std::vector<Figure> figures = FiguresFor(FiguresOf(recording, rig), options.figures);
+  const std::vector<RigPose> poses = Drawable(recording, options.first);
+  const std::vector<Pick> picks = PickMoments(rig, poses, options.moments);
+  OutputFile out(options.out);
+  FaceReader reader(options.face);
+  const double start_s =
+      std::chrono::duration<double>(recording.front().pose.captured.time_since_epoch()).count();
+  const std::vector<Moment> moments = TakeMoments(poses, picks, start_s, reader);
+  const cv::Mat sheet =
+      DrawSheet("what the camera saw, and what the character was told over the wire", figures, rig, moments);
+  std::vector<unsigned char> png;
+  if (!cv::imencode(".png", sheet, png)) throw app::Failure("encoding the picture failed");
+  out.Write({reinterpret_cast<const char*>(png.data()), png.size()});
+  out.Commit();
+  for (const Figure& figure : figures) std::printf("  %-18s %s\n", figure.label.c_str(), figure.value.c_str());
+}
+
+}  // namespace
+
+void AddSheet(CLI::App& facewire) {
+  auto options = std::make_shared<SheetOptions>();
+  CLI::App* command = facewire.add_subcommand(
+      "sheet", "Draw a contact sheet: moments of a video beside what the character was told");
+  command->add_option("RECORDING", options->recording, "What `facewire monitor --csv` wrote of the service's line")->required();
+  command->add_option("--video", options->face.input, "The video that the service saw")->required();
+  command->add_option("--rig", options->rig, "The rig that the service drove")->required();
+  command->add_option("--out", options->out, "The PNG to write")->required();
+  command->add_option("--moments", options->moments, "Rows of the sheet, at most")->check(CLI::Range(1, 20))->capture_default_str();
+  command->add_option("--first", options->first, "Only look at so many frames: where a looped video turned round");
+  command->add_option("--figure", options->figures, "LABEL=VALUE: one more figure for the sheet's head; may be repeated");
+  AddFaceOptions(*command, options->face);
+  command->callback([options] { DrawSheetFile(*options); });
+}
+
+}  // namespace facewire::tools

@@ -1,0 +1,140 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/error.h"
+#include "app/marker_table.h"
+#include "app/profile_file.h"
+#include "tools/facewire/commands.h"
+#include "tools/facewire/region_file.h"
+
+namespace facewire::tools {
+namespace {
+
+struct TrainOptions {
+  std::string markers, targets, out, regions;
+  std::string kernel = "multiquadric";
+  std::string epsilon = "auto";
+  std::string tail = "none";
+  float smoothing = 0;
+  float tail_smoothing = 0;
+  std::size_t neutral_row = 1;
+  bool average_user = false;
+};
+
+rbf::RbfConfig ToConfig(const TrainOptions& options) {
+  rbf::RbfConfig config;
+  config.kernel = ParseKernel(options.kernel, "--kernel: ");
+  config.tail = ParseTail(options.tail, "--tail: ");
+  config.smoothing = options.smoothing;
+  config.tail_smoothing = options.tail_smoothing;
+  for (const auto& [name, value] : {std::pair{"--smoothing", options.smoothing},
+                                    std::pair{"--tail-smoothing", options.tail_smoothing}})
+    if (!std::isfinite(value) || value < 0)
+      throw app::BadInput(std::string(name) + ": has to be a number from 0 up");
+  if (options.epsilon == "auto") return config;
+  const char* end = options.epsilon.data() + options.epsilon.size();
+  const auto [parsed, error] = std::from_chars(options.epsilon.data(), end, config.epsilon);
+  if (error != std::errc{} || parsed != end || !std::isfinite(config.epsilon) ||
+      config.epsilon <= 0)
+    throw app::BadInput("--epsilon: \"" + options.epsilon +
+                        "\" is neither auto nor a positive number");
+  return config;
+}
+
+app::TrainingSet ReadPairs(const TrainOptions& options) {
+  app::MarkerTable markers = app::ReadMarkerTable(options.markers);
+  app::NumberTable targets = app::ReadNumberTable(options.targets);
+  if (markers.rows() != targets.rows())
+    throw app::BadInput(options.targets + ": " + std::to_string(targets.rows()) + " rows, but " +
+                        options.markers + " has " + std::to_string(markers.rows()) +
+                        "; each row is one sample in both files");
+  if (options.neutral_row < 1 || options.neutral_row > markers.rows())
+    throw app::BadInput("--neutral: " + std::to_string(options.neutral_row) + " is not a row of " +
+                        options.markers + "; it has rows 1 to " + std::to_string(markers.rows()));
+  app::TrainingSet training;
+  training.signals = app::ToNames(options.targets, targets.columns);
+  training.markers = std::move(markers.markers);
+  training.samples = std::move(markers.positions_cm);
+  training.targets = std::move(targets.values);
+  training.neutral_sample = options.neutral_row - 1;
+  training.average_user = options.average_user;
+  return training;
+}
+
+void PrintTable(const app::TrainingSet& training, const std::vector<float>& leave_one_out) {
+  std::size_t width = 6;
+  for (const ShortName& signal : training.signals) width = std::max(width, signal.view().size());
+  const int columns = static_cast<int>(width);
+  std::printf("leave-one-out error: what the other rows predict for a row, against its target\n");
+  std::printf("%-*s %10s %10s %8s\n", columns, "target", "rms", "worst", "in row");
+  const std::size_t signals = training.signals.size();
+  for (std::size_t o = 0; o < signals; ++o) {
+    double sum = 0;
+    std::size_t worst = 0;
+    const std::size_t rows = leave_one_out.size() / signals;
+    for (std::size_t s = 0; s < rows; ++s) {
+      const float error = leave_one_out[s * signals + o];
+      sum += static_cast<double>(error) * error;
+      if (std::abs(error) > std::abs(leave_one_out[worst * signals + o])) worst = s;
+    }
+    const std::string name(training.signals[o].view());
+    std::printf("%-*s %10.4f %10.4f %8zu\n", columns, name.c_str(),
+                std::sqrt(sum / static_cast<double>(rows)),
+                static_cast<double>(std::abs(leave_one_out[worst * signals + o])), worst + 1);
+  }
+}
+
+void Train(const TrainOptions& options) {
+  const rbf::RbfConfig config = ToConfig(options);
+  app::TrainingSet training = ReadPairs(options);
+  training.regions = options.regions.empty() ? std::vector{WholeFace(training, config)}
+                                             : ReadRegions(options.regions, training, config);
+  std::vector<float> leave_one_out(training.targets.size());
+  const app::Profile profile(training, options.markers, leave_one_out);
+  // What was chosen here is written down, so that loading does not search again.
+  for (std::size_t r = 0; r < training.regions.size(); ++r)
+    training.regions[r].rbf.epsilon = profile.mapping().epsilon(r);
+  app::SaveProfile(options.out, training);
+
+  for (const retarget::RegionConfig& region : training.regions)
+    std::printf("region %s: %zu inputs, %zu targets, epsilon %.4g per unit\n",
+                std::string(region.name.view()).c_str(), region.inputs(), region.outputs.size(),
+                static_cast<double>(region.rbf.epsilon));
+  PrintTable(training, leave_one_out);
+  std::printf("%s: %zu rows, %zu markers, %zu targets; %zu kB in memory\n", options.out.c_str(),
+              training.view().sample_count(), training.markers.size(), training.signals.size(),
+              (profile.bytes() + 1023) / 1024);
+}
+
+}  // namespace
+
+void AddTrain(CLI::App& facewire) {
+  auto options = std::make_shared<TrainOptions>();
+  CLI::App* train =
+      facewire.add_subcommand("train", "Make a profile: a mapping from example pairs");
+  train->add_option("--markers", options->markers, "CSV with columns NAME_x,NAME_y,NAME_z (cm)")
+      ->required();
+  train->add_option("--targets", options->targets, "CSV with any named numbers, row by row")
+      ->required();
+  train->add_option("--out", options->out, "The profile to write")->required();
+  train->add_option("--kernel", options->kernel,
+                    "multiquadric, inverse-multiquadric, gaussian, linear or cubic");
+  train->add_option("--epsilon", options->epsilon,
+                    "Shape of the kernel per cm; auto: least leave-one-out error");
+  train->add_option("--smoothing", options->smoothing, "0: through every sample");
+  train->add_option("--tail", options->tail, "none, constant or linear");
+  train->add_option("--tail-smoothing", options->tail_smoothing, "The same for a linear tail");
+  train->add_option("--neutral", options->neutral_row, "Row that is the face at rest, from 1");
+  train->add_flag("--average-user", options->average_user,
+                  "The rows are an average face: take performers there by their neutral first");
+  train->add_option("--regions", options->regions, "TOML file that divides the face");
+  train->callback([options] { Train(*options); });
+}
+
+}  // namespace facewire::tools
