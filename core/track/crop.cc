@@ -20,6 +20,7 @@ constexpr int kRun = 64;
 static_assert(kDetectorSize % kRun == 0 && kLandmarkSize % kRun == 0);
 template <class T>
 using Run = std::array<T, kRun>;
+constexpr std::ptrdiff_t kRunFloats = 3 * kRun;
 
 std::uint32_t Load16(const std::uint8_t* at) noexcept {
   std::uint16_t word = 0;
@@ -43,7 +44,7 @@ struct Packed24 {
   explicit Packed24(const ImageView& image) noexcept : plane(image.planes[0]) {}
   Pair Load(int x, int y) const noexcept {
     const std::uint8_t* at =
-        plane.data + static_cast<std::ptrdiff_t>(y) * plane.stride_bytes + 3 * x;
+        plane.data + static_cast<std::ptrdiff_t>(y) * plane.stride_bytes + std::ptrdiff_t{3} * x;
     // The six bytes of both, as two overlapping words; each has a byte of the other at its far end.
     return {Load32(at), Load32(at + 2) >> 8};
   }
@@ -79,7 +80,7 @@ struct Yuyv {
   }
   static std::uint32_t One(const std::uint8_t* row, int x) noexcept {
     // Y0 U Y1 V: the second pixel's brightness moves to where the first one's is.
-    const std::uint32_t word = Load32(row + 4 * (x >> 1));
+    const std::uint32_t word = Load32(row + std::ptrdiff_t{4} * (x >> 1));
     return (word & 0xff00ff00U) | ((word >> (16 * (x & 1))) & 0xffU);
   }
   Plane plane;
@@ -93,7 +94,8 @@ struct Nv12 {
     const std::uint8_t* at = luma.data + static_cast<std::ptrdiff_t>(y) * luma.stride_bytes + x;
     const std::uint8_t* uv =
         chroma.data + static_cast<std::ptrdiff_t>(y >> 1) * chroma.stride_bytes;
-    return {at[0] | Load16(uv + 2 * (x >> 1)) << 8, at[1] | Load16(uv + 2 * ((x + 1) >> 1)) << 8};
+    return {at[0] | Load16(uv + std::ptrdiff_t{2} * (x >> 1)) << 8,
+            at[1] | Load16(uv + std::ptrdiff_t{2} * ((x + 1) >> 1)) << 8};
   }
   Plane luma, chroma;
 };
@@ -215,10 +217,10 @@ void ToRgb(const YuvToRgb& m, Run<float>& a, Run<float>& b, Run<float>& c) noexc
 
 void Store(const Run<float>& r, const Run<float>& g, const Run<float>& b, Range range,
            float* __restrict out) noexcept {
-  for (int i = 0; i < kRun; ++i) {
-    out[3 * i] = r[i] * range.scale + range.offset;
-    out[3 * i + 1] = g[i] * range.scale + range.offset;
-    out[3 * i + 2] = b[i] * range.scale + range.offset;
+  for (int i = 0; i < kRun; ++i, out += 3) {
+    out[0] = r[i] * range.scale + range.offset;
+    out[1] = g[i] * range.scale + range.offset;
+    out[2] = b[i] * range.scale + range.offset;
   }
 }
 
@@ -236,7 +238,7 @@ void Sample(const ImageView& image, const Grid& grid, int size, Range range, flo
   Run<float> g;
   Run<float> b;
   for (int row = 0; row < size; ++row) {
-    for (int first = 0; first < size; first += kRun, out += 3 * kRun) {
+    for (int first = 0; first < size; first += kRun, out += kRunFloats) {
       Locate(grid, row, first, image.width_px, image.height_px, positions);
       Gather(format, positions, words);
       Blend<Format::kShifts[0]>(words, positions, r);
@@ -284,9 +286,9 @@ bool HasRows(const Plane& plane, int row_bytes) noexcept {
 }  // namespace
 
 Result<> CheckImage(const ImageView& image) noexcept {
-  constexpr int kMaxSide_px = 1 << 14;  // keeps every offset within an int
+  constexpr int kMaxSide = 1 << 14;  // pixels; keeps every offset within an int
   const int width = image.width_px;
-  if (width < 2 || image.height_px < 2 || width > kMaxSide_px || image.height_px > kMaxSide_px) {
+  if (width < 2 || image.height_px < 2 || width > kMaxSide || image.height_px > kMaxSide) {
     return Errc::kUnsupported;
   }
   const int half = (width + 1) / 2;

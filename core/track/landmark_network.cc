@@ -75,9 +75,8 @@ Result<> MeshNetwork::Run(CropLandmarks& out) noexcept {
 }
 
 Result<> AttentionNetwork::Build(const TfliteModel& model, NetworkMemory& memory) noexcept {
-  using namespace attention;
   for (std::size_t part = 0; part < kParts; ++part) {
-    const int producer = model.ProducerOf(kMatrices[part]);
+    const int producer = model.ProducerOf(attention::kMatrices[part]);
     if (producer < 0) return Errc::kCorrupt;
     const Operator op = model.op(producer);
     if (op.custom_name != "Landmarks2TransformMatrix") return Errc::kCorrupt;
@@ -85,10 +84,12 @@ Result<> AttentionNetwork::Build(const TfliteModel& model, NetworkMemory& memory
     if (!options) return options.error();
     options_[part] = *options;
   }
-  if (auto built = mesh_.Build(model, kInput, kOutputs, memory); !built) return built;
-  if (auto built = parts_.Build(model, kCuts, kRefined, memory); !built) return built;
+  if (auto built = mesh_.Build(model, attention::kInput, attention::kOutputs, memory); !built)
+    return built;
+  if (auto built = parts_.Build(model, attention::kCuts, attention::kRefined, memory); !built)
+    return built;
 
-  const Shape map = model.tensor(kOutputs[0]).shape;
+  const Shape map = model.tensor(attention::kOutputs[0]).shape;
   features_ = {.values = mesh_.output(0), .width = map[2], .height = map[1], .channels = map[3]};
   if (mesh_.input(0).size() != kInputFloats || mesh_.output(1).size() != kMeshFloats ||
       mesh_.output(2).size() != 1 || map[1] < 2 || map[2] < 2) {
@@ -96,7 +97,7 @@ Result<> AttentionNetwork::Build(const TfliteModel& model, NetworkMemory& memory
   }
   for (std::size_t part = 0; part < kParts; ++part) {
     const PartOptions& o = options_[part];
-    const Shape cut = model.tensor(kCuts[part]).shape;
+    const Shape cut = model.tensor(attention::kCuts[part]).shape;
     if (cut != Shape{1, o.output_height, o.output_width, features_.channels}) return Errc::kCorrupt;
     const auto [points, iris] = kPartOutputs[part];
     if (parts_.output(points).size() != 2 * o.subset.size()) return Errc::kCorrupt;

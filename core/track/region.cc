@@ -10,8 +10,8 @@ namespace {
 constexpr std::size_t kLeftCorner = 33;
 constexpr std::size_t kRightCorner = 263;
 
-// No camera's picture is as large; beyond it, float no longer counts pixels.
-constexpr float kMaxCoordinate_px = 1e6F;
+// In pixels. No camera's picture is as large; far beyond it, float no longer counts pixels.
+constexpr float kMaxCoordinate = 1e6F;
 
 float AngleBetween(Point3 left, Point3 right) noexcept {
   return std::atan2(right.y - left.y, right.x - left.x);
@@ -28,9 +28,8 @@ Region Around(float min_x, float min_y, float max_x, float max_y, float angle) n
 
 bool IsUsable(const Region& r) noexcept {
   // NaN fails every comparison.
-  return std::abs(r.center_x_px) < kMaxCoordinate_px &&
-         std::abs(r.center_y_px) < kMaxCoordinate_px && r.side_px > 1.0F &&
-         r.side_px < kMaxCoordinate_px && std::abs(r.angle_rad) < 4.0F;
+  return std::abs(r.center_x_px) < kMaxCoordinate && std::abs(r.center_y_px) < kMaxCoordinate &&
+         r.side_px > 1.0F && r.side_px < kMaxCoordinate && std::abs(r.angle_rad) < 4.0F;
 }
 
 Region RegionOf(const Detection& d) noexcept {

@@ -45,13 +45,18 @@ class GraphBuilder {
     auto* values = static_cast<std::uint32_t*>(
         memory_.AllocateTemporary(tensors * sizeof(std::uint32_t), alignof(std::uint32_t)));
     auto* needed = static_cast<bool*>(memory_.AllocateTemporary(tensors, 1));
+    auto* constant = static_cast<bool*>(memory_.AllocateTemporary(tensors, 1));
     auto* chosen = static_cast<bool*>(memory_.AllocateTemporary(operators, 1));
-    if (values == nullptr || needed == nullptr || chosen == nullptr) return Errc::kFull;
+    if (values == nullptr || needed == nullptr || constant == nullptr || chosen == nullptr) {
+      return Errc::kFull;
+    }
     values_ = {values, tensors};
     needed_ = {needed, tensors};
+    constant_ = {constant, tensors};
     chosen_ = {chosen, operators};
     std::ranges::fill(values_, XNN_INVALID_VALUE_ID);
     std::ranges::fill(needed_, false);
+    std::ranges::fill(constant_, false);
     std::ranges::fill(chosen_, false);
     return FromXnn(xnn_create_subgraph(XnnNetwork::kMaxExternals, 0, &graph_));
   }
@@ -107,8 +112,9 @@ class GraphBuilder {
  private:
   bool IsDefined(int tensor) const noexcept { return values_[tensor] != XNN_INVALID_VALUE_ID; }
 
-  // The value of an operator's output or computed input.
-  Result<> Define(int tensor) noexcept {
+  // The value of an operator's output. XNNPACK would write into a constant without a murmur.
+  Result<> DefineOutput(int tensor) noexcept {
+    if (constant_[tensor]) return Errc::kCorrupt;
     if (IsDefined(tensor)) return {};
     const Tensor t = model_.tensor(tensor);
     if (t.type != ElementType::kFloat32 || !t.data.empty()) return Errc::kCorrupt;
@@ -153,7 +159,9 @@ class GraphBuilder {
 
   // A weight, bias or slope; a vector for XNNPACK has one dimension.
   Result<> DefineConstant(int tensor, bool vector) noexcept {
-    if (IsDefined(tensor)) return {};
+    if (constant_[tensor]) return {};
+    if (IsDefined(tensor)) return Errc::kCorrupt;
+    constant_[tensor] = true;
     Errc error{};
     const float* floats = ConstantFloats(tensor, error);
     if (floats == nullptr) return error;
@@ -177,7 +185,7 @@ class GraphBuilder {
   }
 
   Result<> Add(const Operator& op) noexcept {
-    if (auto defined = Define(op.output); !defined) return defined;
+    if (auto defined = DefineOutput(op.output); !defined) return defined;
     if (auto defined = DefineConstants(op); !defined) return defined;
     return FromXnn(AddNode(op, values_[op.inputs[0]], values_[op.output]));
   }
@@ -229,6 +237,7 @@ class GraphBuilder {
   xnn_subgraph_t graph_ = nullptr;
   std::span<std::uint32_t> values_;  // of each tensor of the model: XNNPACK's value
   std::span<bool> needed_;           // of each tensor
+  std::span<bool> constant_;         // of each tensor: defined as a constant
   std::span<bool> chosen_;           // of each operator
 };
 
