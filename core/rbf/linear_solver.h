@@ -9,14 +9,14 @@
 
 namespace facewire::rbf {
 
-// Dense LU factorisation with partial pivoting, P A = L U, in place on borrowed memory. For load time:
-// the cost is 2/3 n^3. Symmetric indefinite matrices (a tail makes them so) are the use, which is why
-// this is not a Cholesky factorisation.
+// Dense LU factorisation with partial pivoting, P A = L U, in place on borrowed memory. For load
+// time: the cost is 2/3 n^3. Symmetric indefinite matrices (a tail makes them so) are the use,
+// which is why this is not a Cholesky factorisation.
 class LinearSolver {
  public:
-  // `matrix` holds n x n values by rows and is overwritten with the factors; `pivots` has n elements.
-  // kSingular: a pivot is below 1e-13 of its column's largest element, so that column depends on those
-  // before it; dependent_column() says which.
+  // `matrix` holds n x n values by rows and is overwritten with the factors; `pivots` has n
+  // elements. kSingular: a pivot is below 1e-13 of its column's largest element, so that column
+  // depends on those before it; dependent_column() says which.
   Result<> Factorise(std::span<double> matrix, std::span<std::uint32_t> pivots) noexcept;
 
   // Solves A X = B in place; `b` holds n x columns values by rows.

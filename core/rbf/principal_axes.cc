@@ -8,8 +8,8 @@
 namespace facewire::rbf {
 namespace {
 
-// The subspace converges with the ratio of neighbouring variances to this power. A pair that is still
-// mixed then has nearly equal variance, and it does not matter which of the two is kept.
+// The subspace converges with the ratio of neighbouring variances to this power. A pair that is
+// still mixed then has nearly equal variance, and it does not matter which of the two is kept.
 constexpr int kIterations = 40;
 
 void AddScaled(double a, const double* __restrict x, double* __restrict y, std::size_t n) noexcept {
@@ -22,8 +22,8 @@ double Dot(const double* a, const double* b, std::size_t n) noexcept {
   return sum;
 }
 
-// Gram-Schmidt, twice for precision. A direction that vanishes (fewer directions of motion than axes)
-// is replaced by a coordinate axis, so that the basis is always orthonormal.
+// Gram-Schmidt, twice for precision. A direction that vanishes (fewer directions of motion than
+// axes) is replaced by a coordinate axis, so that the basis is always orthonormal.
 void Orthonormalise(std::span<double> basis, std::size_t inputs, std::size_t axes) noexcept {
   std::size_t spare = 0;
   for (std::size_t a = 0; a < axes; ++a) {
@@ -74,7 +74,8 @@ Result<> PrincipalAxes(std::span<const float> samples, std::size_t inputs, std::
       AddScaled(row[i], row.data(), covariance.data() + i * inputs, inputs);
   }
 
-  // Start from the coordinates' own covariances, evenly picked: deterministic, and inside the space.
+  // Start from the coordinates' own covariances, evenly picked: deterministic, and inside the
+  // space.
   for (std::size_t a = 0; a < axes; ++a)
     std::copy_n(covariance.data() + (a * inputs / axes) * inputs, inputs,
                 current.data() + a * inputs);
@@ -83,8 +84,8 @@ Result<> PrincipalAxes(std::span<const float> samples, std::size_t inputs, std::
     std::ranges::fill(next, 0.0);
     for (std::size_t a = 0; a < axes; ++a)
       for (std::size_t i = 0; i < inputs; ++i)
-        AddScaled(current[a * inputs + i], covariance.data() + i * inputs,
-                  next.data() + a * inputs, inputs);
+        AddScaled(current[a * inputs + i], covariance.data() + i * inputs, next.data() + a * inputs,
+                  inputs);
     std::swap(current, next);
     Orthonormalise(current, inputs, axes);
   }

@@ -14,7 +14,9 @@ namespace {
 constexpr std::size_t kLanes = 8;  // floats of the widest vector worth padding for (AVX)
 constexpr std::size_t kAlignment = kLanes * sizeof(float);
 
-constexpr std::size_t Padded(std::size_t n, std::size_t to) noexcept { return (n + to - 1) / to * to; }
+constexpr std::size_t Padded(std::size_t n, std::size_t to) noexcept {
+  return (n + to - 1) / to * to;
+}
 
 // Of Evaluate's outputs: four lanes, since most functions here have three outputs.
 constexpr std::size_t OutputStride(std::size_t outputs) noexcept { return Padded(outputs, 4); }
@@ -196,8 +198,8 @@ Result<> Rbf::Reserve(const RbfShape& capacity, Arena& arena) noexcept {
 }
 
 Result<> Rbf::Fit(const RbfConfig& config, const RbfShape& shape, std::span<const float> samples,
-                  std::span<const float> targets, std::span<std::byte> workspace,
-                  FitReport& report, std::span<float> leave_one_out) noexcept {
+                  std::span<const float> targets, std::span<std::byte> workspace, FitReport& report,
+                  std::span<float> leave_one_out) noexcept {
   report = {};
   shape_ = {};
   if (shape.samples > capacity_.samples || shape.inputs > capacity_.inputs ||
@@ -226,8 +228,8 @@ Result<> Rbf::Fit(const RbfConfig& config, const RbfShape& shape, std::span<cons
 
   problem.MeasureDistances();
   if (config.smoothing == 0) {
-    // Relative to the spread of the samples; 1e-12 of a squared distance is 1e-6 of a distance, where
-    // float inputs stop telling samples apart.
+    // Relative to the spread of the samples; 1e-12 of a squared distance is 1e-6 of a distance,
+    // where float inputs stop telling samples apart.
     const double spread = *std::ranges::max_element(problem.squared);
     for (std::size_t a = 0; a < shape.samples; ++a) {
       for (std::size_t b = 0; b < a; ++b) {
@@ -258,8 +260,8 @@ Result<> Rbf::Fit(const RbfConfig& config, const RbfShape& shape, std::span<cons
   return {};
 }
 
-// Scans two decades around the reciprocal of the mean distance, then halves the step around the best.
-// Shapes whose system is singular count as infinitely bad.
+// Scans two decades around the reciprocal of the mean distance, then halves the step around the
+// best. Shapes whose system is singular count as infinitely bad.
 Result<> Rbf::ChooseEpsilon(const RbfConfig& config, Problem& problem) const noexcept {
   const auto pairs = static_cast<double>(problem.squared.size());
   double sum = 0;

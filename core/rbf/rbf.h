@@ -15,14 +15,14 @@ namespace facewire::rbf {
 struct RbfConfig {
   Kernel kernel = Kernel::kMultiquadric;
   Tail tail = Tail::kNone;  // the paper's equation 1 has none
-  // Shape of the kernel, 1 / unit of the inputs: small = broad and smooth, large = local. 0 = choose
-  // the one with the least leave-one-out error.
+  // Shape of the kernel, 1 / unit of the inputs: small = broad and smooth, large = local. 0 =
+  // choose the one with the least leave-one-out error.
   float epsilon = 0;
-  // 0 = through every sample exactly. Larger = flatter and less sensitive to noise in the samples; in
-  // units of phi, added to the diagonal of H with the kernel's sign.
+  // 0 = through every sample exactly. Larger = flatter and less sensitive to noise in the samples;
+  // in units of phi, added to the diagonal of H with the kernel's sign.
   float smoothing = 0;
-  // The same for the tail: with 0 the tail is fitted freely, which needs samples in general position
-  // and more of them than inputs.
+  // The same for the tail: with 0 the tail is fitted freely, which needs samples in general
+  // position and more of them than inputs.
   float tail_smoothing = 0;
 };
 
@@ -64,17 +64,18 @@ class Rbf {
   // kFull: the arena is too small.
   Result<> Reserve(const RbfShape& capacity, Arena& arena) noexcept;
 
-  // `samples`: shape.samples x shape.inputs by rows; `targets`: shape.samples x shape.outputs by rows.
-  // `leave_one_out`: empty, or samples x outputs: target minus what the other samples predict there,
-  // by Rippa's formula w_k / inverse(A)_kk (Advances in Computational Mathematics 11, 1999).
-  // kFull: shape exceeds the capacity. kInvalidArgument: sizes that contradict the shape, values that
-  // are not finite, a workspace that is too small, negative numbers in the config.
-  // kSingular: `report` says which samples are to blame. After an error the function is zero.
+  // `samples`: shape.samples x shape.inputs by rows; `targets`: shape.samples x shape.outputs by
+  // rows. `leave_one_out`: empty, or samples x outputs: target minus what the other samples predict
+  // there, by Rippa's formula w_k / inverse(A)_kk (Advances in Computational Mathematics 11, 1999).
+  // kFull: shape exceeds the capacity. kInvalidArgument: sizes that contradict the shape, values
+  // that are not finite, a workspace that is too small, negative numbers in the config. kSingular:
+  // `report` says which samples are to blame. After an error the function is zero.
   Result<> Fit(const RbfConfig& config, const RbfShape& shape, std::span<const float> samples,
                std::span<const float> targets, std::span<std::byte> workspace, FitReport& report,
                std::span<float> leave_one_out = {}) noexcept;
 
-  // `x`: inputs; `y`: outputs, overwritten. Not reentrant: distances lie in the object's own memory.
+  // `x`: inputs; `y`: outputs, overwritten. Not reentrant: distances lie in the object's own
+  // memory.
   void Evaluate(std::span<const float> x, std::span<float> y) const noexcept;
 
   const RbfShape& shape() const noexcept { return shape_; }

@@ -10,8 +10,8 @@ namespace {
 
 // Face mesh indices, of MediaPipe's canonical face; left and right are the person's own.
 constexpr std::array<std::int16_t, 37> kRightEye = {
-    33,  7,   163, 144, 145, 153, 154, 155, 133, 173, 157, 158, 159, 160, 161, 246, 130, 25, 110,
-    24,  23,  22,  26,  112, 243, 190, 56,  28,  27,  29,  30,  247, 468, 469, 470, 471, 472};
+    33, 7,  163, 144, 145, 153, 154, 155, 133, 173, 157, 158, 159, 160, 161, 246, 130, 25, 110,
+    24, 23, 22,  26,  112, 243, 190, 56,  28,  27,  29,  30,  247, 468, 469, 470, 471, 472};
 constexpr std::array<std::int16_t, 37> kLeftEye = {
     263, 249, 390, 373, 374, 380, 381, 382, 362, 398, 384, 385, 386, 387, 388, 466, 359, 255, 339,
     254, 253, 252, 256, 341, 463, 414, 286, 258, 257, 259, 260, 467, 473, 474, 475, 476, 477};
@@ -56,7 +56,7 @@ std::optional<Point3> MeanOf(std::span<const Point3> points,
 // Distance between two groups of landmarks along an axis; 0 when the points do not show both.
 float Between(std::span<const Point3> points, std::span<const std::int16_t> landmarks,
               std::span<const std::int16_t> from, std::span<const std::int16_t> to,
-              float Point3::* axis) noexcept {
+              float Point3::*axis) noexcept {
   const auto a = MeanOf(points, landmarks, from);
   const auto b = MeanOf(points, landmarks, to);
   return a && b ? std::abs((*b).*axis - (*a).*axis) : 0.0F;

@@ -9,9 +9,10 @@
 
 namespace facewire::retarget {
 
-// Makes two object spaces consistent before the mapping between them is solved (the paper's section 5):
-// the scale across comes from the distance between the eyes, the scale up and down from that between
-// brows and chin, in depth their geometric mean; the translation takes mean to mean. Axes already agree.
+// Makes two object spaces consistent before the mapping between them is solved (the paper's section
+// 5): the scale across comes from the distance between the eyes, the scale up and down from that
+// between brows and chin, in depth their geometric mean; the translation takes mean to mean. Axes
+// already agree.
 struct Alignment {
   Point3 scale{1, 1, 1};
   Point3 source_mean{}, target_mean{};
@@ -22,11 +23,11 @@ struct Alignment {
   }
 };
 
-// Point i of `source` corresponds to point i of `target`; `landmarks[i]` is its index in the face mesh,
-// or anything negative for a point that has no place in it. A distance that either side cannot give
-// (no eye among the points, or a puppet whose eyes coincide) is replaced by the points' overall spread.
-// kSingular: several source points, all in one place. kInvalidArgument: no points, sizes differ, or
-// values that are not finite.
+// Point i of `source` corresponds to point i of `target`; `landmarks[i]` is its index in the face
+// mesh, or anything negative for a point that has no place in it. A distance that either side
+// cannot give (no eye among the points, or a puppet whose eyes coincide) is replaced by the points'
+// overall spread. kSingular: several source points, all in one place. kInvalidArgument: no points,
+// sizes differ, or values that are not finite.
 Result<Alignment> Align(std::span<const Point3> source, std::span<const Point3> target,
                         std::span<const std::int16_t> landmarks) noexcept;
 

@@ -74,8 +74,7 @@ void Project(std::span<const float> basis, std::span<const float> x, std::span<f
 
 std::size_t RegionWorkspaceBytes(const RegionConfig& region, std::size_t samples) noexcept {
   const std::size_t inputs = region.inputs();
-  const std::size_t floats =
-      samples * (inputs + Dimensions(region) + 2 * region.outputs.size());
+  const std::size_t floats = samples * (inputs + Dimensions(region) + 2 * region.outputs.size());
   return floats * sizeof(float) + 64 +
          std::max(rbf::Rbf::WorkspaceBytes(ShapeOf(region, samples)),
                   rbf::PrincipalAxesWorkspaceBytes(inputs, region.axes));
@@ -149,8 +148,7 @@ Result<> ExpressionMapping::Configure(const Training& t, Arena& arena,
   for (std::size_t r = 0; r < t.regions.size(); ++r) {
     report.region = r;
     regions_[r].config = t.regions[r];
-    if (auto fitted =
-            FitRegion(regions_[r], t, arena, workspace, report.fit, leave_one_out);
+    if (auto fitted = FitRegion(regions_[r], t, arena, workspace, report.fit, leave_one_out);
         !fitted)
       return fitted;
   }
@@ -179,8 +177,7 @@ Result<> ExpressionMapping::FitRegion(Region& region, const Training& t, Arena& 
       const auto xyz = t.samples.subspan((s * t.markers.size() + i) * 3, 3);
       points[i] = {xyz[0], xyz[1], xyz[2]};
     }
-    ReadInputs(config, std::span(points).first(t.markers.size()),
-               all.subspan(s * inputs, inputs));
+    ReadInputs(config, std::span(points).first(t.markers.size()), all.subspan(s * inputs, inputs));
     for (std::size_t o = 0; o < outputs; ++o)
       targets[s * outputs + o] = t.targets[s * t.signals.size() + config.outputs[o]];
   }
@@ -211,8 +208,7 @@ void ExpressionMapping::ReadInputs(const RegionConfig& region, std::span<const P
                                    std::span<float> inputs) const noexcept {
   Point3 origin;
   for (const std::uint16_t i : region.origin) origin = origin + points_cm[i];
-  if (!region.origin.empty())
-    origin = (1.0F / static_cast<float>(region.origin.size())) * origin;
+  if (!region.origin.empty()) origin = (1.0F / static_cast<float>(region.origin.size())) * origin;
   std::size_t at = 0;
   for (const std::uint16_t i : region.points) {
     const Point3 p = points_cm[i] - origin;
@@ -244,8 +240,8 @@ void ExpressionMapping::Evaluate(std::span<const Point3> points_cm,
     for (std::size_t o = 0; o < config.outputs.size(); ++o) {
       const std::uint16_t signal = config.outputs[o];
       const Range& range = ranges_[signal];
-      signals[signal] = std::isfinite(outputs[o]) ? std::clamp(outputs[o], range.low, range.high)
-                                                  : range.neutral;
+      signals[signal] =
+          std::isfinite(outputs[o]) ? std::clamp(outputs[o], range.low, range.high) : range.neutral;
     }
   }
 }

@@ -16,8 +16,8 @@
 
 namespace facewire::retarget {
 
-// A part of the face with a function of its own: some markers in, some signals out. Regions keep apart
-// what does not belong together (a blink moves no mouth) and let what matters weigh more.
+// A part of the face with a function of its own: some markers in, some signals out. Regions keep
+// apart what does not belong together (a blink moves no mouth) and let what matters weigh more.
 struct RegionConfig {
   struct Pair {
     std::uint16_t first = 0, second = 0;
@@ -38,12 +38,13 @@ struct RegionConfig {
 
 // Example pairs, borrowed.
 struct Training {
-  std::span<const ShortName> markers;  // "lm0".."lm477": landmarks; any other names: a marker file's
+  std::span<const ShortName>
+      markers;  // "lm0".."lm477": landmarks; any other names: a marker file's
   std::span<const ShortName> signals;
-  std::span<const float> samples;      // samples x 3 markers by rows: x y z, cm, head frame
-  std::span<const float> targets;      // samples x signals by rows, in the signals' own units
+  std::span<const float> samples;         // samples x 3 markers by rows: x y z, cm, head frame
+  std::span<const float> targets;         // samples x signals by rows, in the signals' own units
   std::span<const RegionConfig> regions;  // every signal is the output of exactly one
-  std::size_t neutral_sample = 0;      // the row that is the face at rest
+  std::size_t neutral_sample = 0;         // the row that is the face at rest
   // The samples are an average face: other performers are taken there by a geometry mapping first.
   bool average_user = false;
 
@@ -66,9 +67,10 @@ class ExpressionMapping {
   static std::size_t WorkspaceBytes(const Training& training) noexcept;
 
   // Copies what it needs and solves all regions: load time, O(samples^3) a region.
-  // kInvalidArgument: sizes that contradict each other, indices out of range, a signal in no region or
-  // in two, markers that are landmarks only in part. kFull: a capacity of core/base/capacity.h or the
-  // arena. kSingular: see `report`. `leave_one_out`: empty, or as targets: see rbf::Rbf::Fit.
+  // kInvalidArgument: sizes that contradict each other, indices out of range, a signal in no region
+  // or in two, markers that are landmarks only in part. kFull: a capacity of core/base/capacity.h
+  // or the arena. kSingular: see `report`. `leave_one_out`: empty, or as targets: see
+  // rbf::Rbf::Fit.
   Result<> Configure(const Training& training, Arena& arena, std::span<std::byte> workspace,
                      TrainingReport& report, std::span<float> leave_one_out = {}) noexcept;
 
@@ -77,14 +79,14 @@ class ExpressionMapping {
   // The marker positions of the neutral sample, cm.
   std::span<const Point3> neutral_cm() const noexcept { return neutral_.span(); }
   bool average_user() const noexcept { return average_user_; }
-  // Index of marker i in FacePose::points_cm: its landmark; for a marker file's names, i itself (who
-  // reads the file then fills points_cm in this order).
+  // Index of marker i in FacePose::points_cm: its landmark; for a marker file's names, i itself
+  // (who reads the file then fills points_cm in this order).
   std::span<const std::int16_t> point_indices() const noexcept { return point_indices_.span(); }
   bool reads_landmarks() const noexcept { return reads_landmarks_; }
   float epsilon(std::size_t region) const noexcept { return regions_[region].rbf.epsilon(); }
 
-  // `points_cm`: one per marker; `signals`: one per signal, overwritten, each within the range that its
-  // training targets span (outside the trained region the function would run away; what is not
+  // `points_cm`: one per marker; `signals`: one per signal, overwritten, each within the range that
+  // its training targets span (outside the trained region the function would run away; what is not
   // finite becomes the neutral sample's value). Not reentrant.
   void Evaluate(std::span<const Point3> points_cm, std::span<float> signals) const noexcept;
 

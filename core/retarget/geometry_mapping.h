@@ -13,14 +13,14 @@
 
 namespace facewire::retarget {
 
-// The paper's geometry mapping: a deformation of space, three functions of three variables, that takes
-// one face's neutral points to another's. Motion is mapped as f(point) - f(neutral point), so a
-// neutral face gives exactly no motion, whatever the smoothing.
+// The paper's geometry mapping: a deformation of space, three functions of three variables, that
+// takes one face's neutral points to another's. Motion is mapped as f(point) - f(neutral point), so
+// a neutral face gives exactly no motion, whatever the smoothing.
 //
-// f = alignment + RBF of what the alignment leaves over. The kernel's radius is 1 cm: about the width
-// of a lid or a lip, so that a lid that travels to the other lid's place lands on the other lid of the
-// target, while a radius near the points' mean distance overshoots between them. Smoothing keeps
-// points that nearly touch in neutral (the lips) from tearing space apart.
+// f = alignment + RBF of what the alignment leaves over. The kernel's radius is 1 cm: about the
+// width of a lid or a lip, so that a lid that travels to the other lid's place lands on the other
+// lid of the target, while a radius near the points' mean distance overshoots between them.
+// Smoothing keeps points that nearly touch in neutral (the lips) from tearing space apart.
 class GeometryMapping {
  public:
   static std::size_t RequiredBytes(std::size_t max_points) noexcept;
@@ -29,8 +29,8 @@ class GeometryMapping {
   // kFull: the arena is too small.
   Result<> Reserve(std::size_t max_points, Arena& arena) noexcept;
 
-  // Source point i corresponds to target point i, cm; `landmarks` as in Align, whose errors these are
-  // too. kFull: more points than reserved. Load time: O(points^3), about 1 ms for 100 points.
+  // Source point i corresponds to target point i, cm; `landmarks` as in Align, whose errors these
+  // are too. kFull: more points than reserved. Load time: O(points^3), about 1 ms for 100 points.
   Result<> Solve(std::span<const Point3> source, std::span<const Point3> target,
                  std::span<const std::int16_t> landmarks, std::span<std::byte> workspace) noexcept;
 

@@ -77,15 +77,14 @@ void NeutralCapture::Add(const FacePose& face) noexcept {
 
 float NeutralCapture::progress() const noexcept {
   if (count_ == 0) return 0;
-  const float frames =
-      static_cast<float>(count_ * every_) / static_cast<float>(config_.min_frames);
+  const float frames = static_cast<float>(count_ * every_) / static_cast<float>(config_.min_frames);
   const float wanted = Seconds(config_.duration);
   const float seen = Seconds(shots_[count_ - 1].captured - shots_[0].captured);
   const float time = wanted > 0 ? seen / wanted : 1.0F;
   return std::clamp(std::min(frames, time), 0.0F, 1.0F);
 }
 
-float NeutralCapture::MedianOf(float Point3::* axis, std::size_t point) noexcept {
+float NeutralCapture::MedianOf(float Point3::*axis, std::size_t point) noexcept {
   for (std::size_t i = 0; i < count_; ++i) scratch_[i] = shots_[i].points_cm[point].*axis;
   return Median(scratch_.first(count_));
 }
@@ -127,7 +126,7 @@ Result<Neutral> NeutralCapture::Finish() noexcept {
   const std::size_t attitude = MedianAttitude(turn_deg);
   if (10 * moving > points_ || turn_deg > config_.max_turn_deg) return Errc::kRejected;
   neutral.camera_R_head = shots_[attitude].camera_R_head;
-  for (float Point3::* axis : {&Point3::x, &Point3::y, &Point3::z}) {
+  for (float Point3::*axis : {&Point3::x, &Point3::y, &Point3::z}) {
     for (std::size_t i = 0; i < count_; ++i) scratch_[i] = shots_[i].camera_t_head_cm.*axis;
     neutral.camera_t_head_cm.*axis = Median(scratch_.first(count_));
   }

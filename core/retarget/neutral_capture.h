@@ -16,22 +16,23 @@ struct NeutralCaptureConfig {
   // How long the face has to be seen before there is a neutral; and in at least how many frames.
   Duration duration = std::chrono::seconds(2);
   std::size_t min_frames = 24;
-  // Refused when more than a tenth of the points typically (median absolute deviation) stray further
-  // than this from their own median, cm. Blinks and single words do not; talking or grimacing does.
+  // Refused when more than a tenth of the points typically (median absolute deviation) stray
+  // further than this from their own median, cm. Blinks and single words do not; talking or
+  // grimacing does.
   float max_stray_cm = 0.25F;
   // Refused when the head typically strays further than this from its median attitude, degrees.
   float max_turn_deg = 10.0F;
 };
 
 // Finds a performer's neutral face: the median of each coordinate over a window, which a blink or a
-// lost frame inside the window does not touch. When its memory is full it keeps every second frame and
-// takes frames half as often, so any duration and frame rate fit.
+// lost frame inside the window does not touch. When its memory is full it keeps every second frame
+// and takes frames half as often, so any duration and frame rate fit.
 class NeutralCapture {
  public:
   static std::size_t RequiredBytes() noexcept;
 
-  // kFull: the arena is too small. kOutOfRange: min_frames is 0 or above kMaxNeutralFrames / 2, or a
-  // limit is not positive.
+  // kFull: the arena is too small. kOutOfRange: min_frames is 0 or above kMaxNeutralFrames / 2, or
+  // a limit is not positive.
   Result<> Configure(const NeutralCaptureConfig& config, Arena& arena) noexcept;
 
   void Reset() noexcept;
@@ -39,8 +40,8 @@ class NeutralCapture {
   // A face with another number of points than the first one starts over.
   void Add(const FacePose& face) noexcept;
 
-  // kNotReady: not seen for long enough yet. kRejected: the face moved too much; Reset and try again.
-  // About 10 ms of work with full memory: not for every frame.
+  // kNotReady: not seen for long enough yet. kRejected: the face moved too much; Reset and try
+  // again. About 10 ms of work with full memory: not for every frame.
   Result<Neutral> Finish() noexcept;
 
   // Part of the window that has been seen, 0..1.
@@ -53,7 +54,7 @@ class NeutralCapture {
     Point3 camera_t_head_cm{};
     std::array<Point3, kMaxLandmarks> points_cm{};
   };
-  float MedianOf(float Point3::* axis, std::size_t point) noexcept;
+  float MedianOf(float Point3::*axis, std::size_t point) noexcept;
   float StrayOf(std::size_t point, Point3 median) noexcept;
   std::size_t MedianAttitude(float& turn_deg) noexcept;
 

@@ -116,15 +116,14 @@ Result<> Retargeter::SolveBones(Solution& solution) noexcept {
   }
   solution.bones_at_neutral.clear();
   if (n == 0) return {};
-  if (auto solved =
-          solution.to_bones.Solve(std::span(source).first(n), std::span(target).first(n),
-                                  std::span(landmarks).first(n), workspace_);
+  if (auto solved = solution.to_bones.Solve(std::span(source).first(n), std::span(target).first(n),
+                                            std::span(landmarks).first(n), workspace_);
       !solved)
     return solved;
   for (const BoneLink& link : links_) {
     const bool seen = static_cast<std::size_t>(link.landmark) < solution.neutral.count;
-    const Point3 at = seen ? solution.to_bones.Map(solution.neutral.points_cm[link.landmark])
-                           : Point3{};
+    const Point3 at =
+        seen ? solution.to_bones.Map(solution.neutral.points_cm[link.landmark]) : Point3{};
     if (!solution.bones_at_neutral.try_push(at)) return Errc::kFull;
   }
   return {};
@@ -153,8 +152,7 @@ Result<> Retargeter::SolveAverage(Solution& solution) noexcept {
     return solved;
   for (const std::int16_t index : indices) {
     const bool seen = static_cast<std::size_t>(index) < solution.neutral.count;
-    const Point3 at =
-        seen ? solution.to_average.Map(solution.neutral.points_cm[index]) : Point3{};
+    const Point3 at = seen ? solution.to_average.Map(solution.neutral.points_cm[index]) : Point3{};
     if (!solution.markers_at_neutral.try_push(at)) return Errc::kFull;
   }
   return {};
@@ -186,8 +184,8 @@ void Retargeter::ReadExpressions(const FacePose& face) noexcept {
     if (!seen) {
       points[i] = average[i];
     } else if (mapped) {
-      points[i] = average[i] + (solution.to_average.Map(face.points_cm[index]) -
-                                solution.markers_at_neutral[i]);
+      points[i] = average[i] +
+                  (solution.to_average.Map(face.points_cm[index]) - solution.markers_at_neutral[i]);
     } else {
       points[i] = face.points_cm[index];
     }
@@ -199,13 +197,12 @@ void Retargeter::ReadExpressions(const FacePose& face) noexcept {
 void Retargeter::ReadHead(const FacePose& face) noexcept {
   const Neutral& neutral = solutions_[current_].neutral;
   const Matrix3 rotation =
-      has_neutral_ ? TransposeTimes(neutral.camera_R_head, face.camera_R_head)
-                   : face.camera_R_head;
+      has_neutral_ ? TransposeTimes(neutral.camera_R_head, face.camera_R_head) : face.camera_R_head;
   const HeadAngles angles = AnglesOf(rotation);
-  const Point3 moved = has_neutral_
-                           ? TransposeTimes(neutral.camera_R_head,
-                                            face.camera_t_head_cm - neutral.camera_t_head_cm)
-                           : Point3{};  // nobody knows yet where the head belongs
+  const Point3 moved =
+      has_neutral_
+          ? TransposeTimes(neutral.camera_R_head, face.camera_t_head_cm - neutral.camera_t_head_cm)
+          : Point3{};  // nobody knows yet where the head belongs
   const std::array<float, kHeadSignals.size()> values = {
       angles.pitch_deg, angles.yaw_deg, angles.roll_deg, moved.x, moved.y, moved.z};
   std::ranges::copy(values,

@@ -19,8 +19,8 @@
 
 namespace facewire::retarget {
 
-// The head's own signals, after those of the expression mapping: rotation in degrees and translation
-// in cm from where the head was in the neutral capture, in the neutral head's axes.
+// The head's own signals, after those of the expression mapping: rotation in degrees and
+// translation in cm from where the head was in the neutral capture, in the neutral head's axes.
 inline constexpr std::array<std::string_view, 6> kHeadSignals = {
     "head.pitch", "head.yaw", "head.roll", "head.x", "head.y", "head.z"};
 
@@ -29,20 +29,21 @@ inline constexpr std::array<std::string_view, 6> kHeadSignals = {
 std::optional<ShortName> FirstUnknownSignal(const Rig& rig,
                                             const ExpressionMapping* expressions) noexcept;
 
-// Performer to character: geometry mapping for bones, expression mapping for signals, drives to channels.
+// Performer to character: geometry mapping for bones, expression mapping for signals, drives to
+// channels.
 class Retargeter {
  public:
   // Bytes of arena that Configure needs.
   static std::size_t RequiredBytes() noexcept;
 
   // Both are borrowed and must outlive the retargeter; `expressions` may be null (bones only).
-  // kNotFound: a drive names a signal that neither the profile nor the head gives (FirstUnknownSignal
-  // tells). kFull: the arena is too small.
+  // kNotFound: a drive names a signal that neither the profile nor the head gives
+  // (FirstUnknownSignal tells). kFull: the arena is too small.
   Result<> Configure(const Rig& rig, const ExpressionMapping* expressions, Arena& arena) noexcept;
 
-  // Takes the performer's neutral and solves the mappings that depend on it. Allocates nothing; also
-  // possible while running (a few ms). kSingular: the neutral's points coincide; kInvalidArgument:
-  // they are not finite, or there are none. After an error the old neutral stays.
+  // Takes the performer's neutral and solves the mappings that depend on it. Allocates nothing;
+  // also possible while running (a few ms). kSingular: the neutral's points coincide;
+  // kInvalidArgument: they are not finite, or there are none. After an error the old neutral stays.
   Result<> SetNeutral(const Neutral& neutral) noexcept;
 
   // Before the first SetNeutral the performer counts as the average face, and bones stay at rest.

@@ -1,12 +1,13 @@
 #include "tools/facewire/region_file.h"
 
+#include <toml++/toml.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <toml++/toml.h>
 #include <utility>
 
 #include "app/error.h"
@@ -29,8 +30,8 @@ constexpr std::array<std::pair<std::string_view, rbf::Tail>, 3> kTails = {{
     {"linear", rbf::Tail::kLinear},
 }};
 constexpr std::array<std::string_view, 12> kKeys = {
-    "name",    "targets", "points", "origin",    "distances",      "distance_gain",
-    "axes",    "kernel",  "tail",   "epsilon",   "smoothing",      "tail_smoothing"};
+    "name", "targets", "points", "origin",  "distances", "distance_gain",
+    "axes", "kernel",  "tail",   "epsilon", "smoothing", "tail_smoothing"};
 
 template <class Table>
 auto Parse(const Table& table, std::string_view name, const std::string& where) {
@@ -58,7 +59,8 @@ class RegionReader {
     region.rbf = defaults;
     if (const auto* node = table_.get("kernel"))
       region.rbf.kernel = ParseKernel(Text(*node), Where(*node));
-    if (const auto* node = table_.get("tail")) region.rbf.tail = ParseTail(Text(*node), Where(*node));
+    if (const auto* node = table_.get("tail"))
+      region.rbf.tail = ParseTail(Text(*node), Where(*node));
     region.rbf.epsilon = Number("epsilon", region.rbf.epsilon);
     region.rbf.smoothing = Number("smoothing", region.rbf.smoothing);
     region.rbf.tail_smoothing = Number("tail_smoothing", region.rbf.tail_smoothing);
@@ -158,9 +160,9 @@ void CheckThatEveryTargetIsInOneRegion(const std::filesystem::path& path,
     for (const RegionConfig& region : regions)
       uses += static_cast<std::size_t>(std::ranges::count(region.outputs, i));
     if (uses != 1)
-      throw app::BadInput(path.string() + ": target \"" +
-                          std::string(training.signals[i].view()) + "\" is in " +
-                          std::to_string(uses) + " regions; every target belongs in exactly one");
+      throw app::BadInput(path.string() + ": target \"" + std::string(training.signals[i].view()) +
+                          "\" is in " + std::to_string(uses) +
+                          " regions; every target belongs in exactly one");
   }
 }
 
@@ -214,8 +216,8 @@ RegionConfig WholeFace(const app::TrainingSet& training, const rbf::RbfConfig& c
   for (std::size_t i = 0; i < training.signals.size(); ++i)
     fits = fits && region.outputs.try_push(static_cast<std::uint16_t>(i));
   if (!fits)
-    throw app::BadInput("a profile holds at most " + std::to_string(kMaxMarkers) +
-                        " markers and " + std::to_string(kMaxSignals) + " targets; there are " +
+    throw app::BadInput("a profile holds at most " + std::to_string(kMaxMarkers) + " markers and " +
+                        std::to_string(kMaxSignals) + " targets; there are " +
                         std::to_string(training.markers.size()) + " and " +
                         std::to_string(training.signals.size()));
   return region;

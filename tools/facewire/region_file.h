@@ -11,8 +11,8 @@ namespace facewire::tools {
 
 // How a face is divided for training (described in tools/facewire/README.md), for the markers and
 // signals of `training`. What a region does not set comes from `defaults`.
-// BadInput, one line with file and line: not TOML, unknown keys, markers, targets or kernels, numbers
-// out of range, a target in no region or in two.
+// BadInput, one line with file and line: not TOML, unknown keys, markers, targets or kernels,
+// numbers out of range, a target in no region or in two.
 std::vector<retarget::RegionConfig> ReadRegions(const std::filesystem::path& path,
                                                 const app::TrainingSet& training,
                                                 const rbf::RbfConfig& defaults);

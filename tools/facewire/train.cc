@@ -55,9 +55,8 @@ app::TrainingSet ReadPairs(const TrainOptions& options) {
                         options.markers + " has " + std::to_string(markers.rows()) +
                         "; each row is one sample in both files");
   if (options.neutral_row < 1 || options.neutral_row > markers.rows())
-    throw app::BadInput("--neutral: " + std::to_string(options.neutral_row) +
-                        " is not a row of " + options.markers + "; it has rows 1 to " +
-                        std::to_string(markers.rows()));
+    throw app::BadInput("--neutral: " + std::to_string(options.neutral_row) + " is not a row of " +
+                        options.markers + "; it has rows 1 to " + std::to_string(markers.rows()));
   app::TrainingSet training;
   training.signals = app::ToNames(options.targets, targets.columns);
   training.markers = std::move(markers.markers);
@@ -94,9 +93,8 @@ void PrintTable(const app::TrainingSet& training, const std::vector<float>& leav
 void Train(const TrainOptions& options) {
   const rbf::RbfConfig config = ToConfig(options);
   app::TrainingSet training = ReadPairs(options);
-  training.regions = options.regions.empty()
-                         ? std::vector{WholeFace(training, config)}
-                         : ReadRegions(options.regions, training, config);
+  training.regions = options.regions.empty() ? std::vector{WholeFace(training, config)}
+                                             : ReadRegions(options.regions, training, config);
   std::vector<float> leave_one_out(training.targets.size());
   const app::Profile profile(training, options.markers, leave_one_out);
   // What was chosen here is written down, so that loading does not search again.

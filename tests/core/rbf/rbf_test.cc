@@ -44,9 +44,9 @@ TEST(Rbf, AgreesWithValuesComputedIndependently) {
     c.samples.assign(golden::kSamples.begin(), golden::kSamples.end());
     c.targets.assign(golden::kTargets.begin(), golden::kTargets.end());
     c.inputs = c.outputs = 2;
-    SCOPED_TRACE(testing::Message() << "kernel " << static_cast<int>(expected.kernel) << " tail "
-                                    << static_cast<int>(expected.tail) << " smoothing "
-                                    << expected.smoothing);
+    SCOPED_TRACE(testing::Message()
+                 << "kernel " << static_cast<int>(expected.kernel) << " tail "
+                 << static_cast<int>(expected.tail) << " smoothing " << expected.smoothing);
     ASSERT_TRUE(c.Fit());
     for (std::size_t place = 0; place < 2; ++place) {
       const auto y = c.At({golden::kAt[2 * place], golden::kAt[2 * place + 1]});

@@ -1,0 +1,134 @@
+#include "core/retarget/expression_mapping.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/core/retarget/training_example.h"
+
+namespace facewire::retarget {
+namespace {
+
+TEST(ExpressionMapping, GivesTheTargetsOfItsSamplesAndWhatLiesBetween) {
+  ExampleMapping m;
+  ASSERT_TRUE(m.Configure({}));
+  for (const float blink : {0.0F, 0.25F, 0.5F, 1.0F}) {
+    for (const float open : {0.0F, 0.5F, 0.75F, 1.0F}) {
+      const auto signals = m.At(TrainingExample::Points(blink, open));
+      EXPECT_NEAR(signals[0], blink, 0.05F);
+      EXPECT_NEAR(signals[1], open, 0.05F);
+    }
+  }
+}
+
+TEST(ExpressionMapping, ABlinkDoesNotReachTheMouthsRegion) {
+  ExampleMapping m;
+  ASSERT_TRUE(m.Configure({}));
+  EXPECT_EQ(m.At(TrainingExample::Points(0, 0.3F))[1], m.At(TrainingExample::Points(1, 0.3F))[1]);
+}
+
+TEST(ExpressionMapping, StaysWithinTheRangeOfItsTargetsFarOutside) {
+  ExampleMapping m;
+  ASSERT_TRUE(m.Configure({}));
+  for (const float far : {-1000.0F, -3.0F, 3.0F, 1000.0F}) {
+    for (const float signal : m.At(TrainingExample::Points(far, far))) {
+      EXPECT_GE(signal, 0);
+      EXPECT_LE(signal, 1);
+    }
+  }
+}
+
+TEST(ExpressionMapping, APointThatIsNotFiniteGivesTheNeutralOfItsRegionOnly) {
+  TrainingExample example;
+  example.neutral_sample = 4;  // blink 0.5, open 0.5
+  ExampleMapping m;
+  ASSERT_TRUE(m.Configure(example));
+  auto points = TrainingExample::Points(1, 1);
+  points[0].y = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(m.At(points)[0], 0.5F);
+  EXPECT_NEAR(m.At(points)[1], 1, 0.05F);
+  points[0].y = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(m.At(points)[0], 0.5F);
+}
+
+TEST(ExpressionMapping, KnowsWhichLandmarksItReads) {
+  ExampleMapping m;
+  ASSERT_TRUE(m.Configure({}));
+  EXPECT_TRUE(m.mapping.reads_landmarks());
+  EXPECT_EQ(m.mapping.point_indices()[0], 386);
+  EXPECT_EQ(m.mapping.point_indices()[3], 14);
+}
+
+TEST(ExpressionMapping, MarkersOfAFileAreReadInTheirOwnOrder) {
+  TrainingExample example;
+  for (std::size_t i = 0; i < 4; ++i)
+    example.markers[i] =
+        TrainingExample::Named("Lid_" + std::string(1, static_cast<char>('a' + i)));
+  ExampleMapping m;
+  ASSERT_TRUE(m.Configure(example));
+  EXPECT_FALSE(m.mapping.reads_landmarks());
+  EXPECT_EQ(m.mapping.point_indices()[2], 2);
+}
+
+TEST(ExpressionMapping, RefusesLandmarksMixedWithOtherMarkers) {
+  TrainingExample example;
+  example.markers[1] = TrainingExample::Named("lm478");  // there is no such landmark
+  EXPECT_EQ(ExampleMapping{}.Configure(example).error(), Errc::kInvalidArgument);
+}
+
+TEST(ExpressionMapping, EverySignalBelongsToExactlyOneRegion) {
+  TrainingExample none;
+  none.regions.pop_back();
+  EXPECT_EQ(ExampleMapping{}.Configure(none).error(), Errc::kInvalidArgument);
+  TrainingExample twice;
+  TrainingExample::Fill(twice.regions[1].outputs, {0, 1});
+  EXPECT_EQ(ExampleMapping{}.Configure(twice).error(), Errc::kInvalidArgument);
+}
+
+TEST(ExpressionMapping, NamesTheRegionAndTheSamplesThatCoincide) {
+  TrainingExample example;
+  for (RegionConfig& region : example.regions) region.rbf = {.epsilon = 1};
+  TrainingExample::Fill(example.regions[0].points, {0, 1, 2, 3});
+  TrainingExample::Fill(example.regions[0].origin, {});
+  ExampleMapping m;
+  const auto result = m.Configure(example);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error(), Errc::kSingular);
+  EXPECT_EQ(m.report.region, 1U) << "the mouth looks the same whatever the lids do";
+  EXPECT_EQ(m.report.fit.duplicate_first, 0U);
+  EXPECT_EQ(m.report.fit.duplicate_second, 3U);
+}
+
+TEST(ExpressionMapping, AllPrincipalAxesGiveTheSameFunctionAsNone) {
+  TrainingExample example;
+  ExampleMapping plain;
+  ASSERT_TRUE(plain.Configure(example));
+  for (RegionConfig& region : example.regions)
+    region.axes = static_cast<std::uint16_t>(region.inputs());
+  ExampleMapping rotated;
+  ASSERT_TRUE(rotated.Configure(example));
+  const auto points = TrainingExample::Points(0.3F, 0.8F);
+  EXPECT_NEAR(plain.At(points)[0], rotated.At(points)[0], 1e-3);
+  EXPECT_NEAR(plain.At(points)[1], rotated.At(points)[1], 1e-3);
+}
+
+TEST(ExpressionMapping, LeaveOneOutErrorsComeInTheTargetsPlaces) {
+  TrainingExample example;
+  std::vector<float> errors(example.targets.size(), 99.0F);
+  ExampleMapping m;
+  ASSERT_TRUE(m.Configure(example, errors));
+  for (const float error : errors) EXPECT_LT(std::abs(error), 0.5F);
+}
+
+TEST(ExpressionMapping, AnArenaThatIsTooSmallIsFull) {
+  const TrainingExample example;
+  std::vector<std::byte> block(64);
+  std::vector<std::byte> workspace(ExpressionMapping::WorkspaceBytes(example.view()));
+  Arena arena(block);
+  ExpressionMapping mapping;
+  TrainingReport report;
+  EXPECT_EQ(mapping.Configure(example.view(), arena, workspace, report).error(), Errc::kFull);
+}
+
+}  // namespace
+}  // namespace facewire::retarget
