@@ -70,6 +70,7 @@ void ReadOneEuro(TableReader group, filter::OneEuroConfig& config) {
   group.Number("min_cutoff_hz", config.min_cutoff_hz, {0.001, 1000, "Hz"});
   group.Number("beta", config.beta, {0, 100000});
   group.Number("derivative_cutoff_hz", config.derivative_cutoff_hz, {0.001, 1000, "Hz"});
+  group.Number("speed_floor", config.speed_floor, {0, 1000, "face sizes a second"});
   group.Finish();
 }
 

@@ -20,9 +20,11 @@ Result<Followed> FramePath::Update(const Frame& frame) noexcept {
   return Followed{*face, retargeter_->Update(*face)};
 }
 
-// A rejected face may be one that the tracker follows wrongly, so it searches again, too.
+// A face that cannot be right may be one that the tracker follows wrongly, so it searches anew. The
+// filter keeps the past then: it knows when to believe in a jump after all.
 Errc FramePath::Lose(Errc why) noexcept {
-  Reset();
+  tracker_.Reset();
+  if (why != Errc::kRejected) filter_.Reset();
   return why;
 }
 

@@ -135,6 +135,7 @@ TEST(ExampleConfig, ListsEveryKeyWithItsDefault) {
     EXPECT_EQ((read.filter.*group).beta, (defaults.filter.*group).beta);
     EXPECT_EQ((read.filter.*group).derivative_cutoff_hz,
               (defaults.filter.*group).derivative_cutoff_hz);
+    EXPECT_EQ((read.filter.*group).speed_floor, (defaults.filter.*group).speed_floor);
   }
   EXPECT_EQ(read.pose.vertical_fov_deg, defaults.pose.vertical_fov_deg);
   EXPECT_EQ(read.character.rig.filename(), defaults.character.rig.filename());
