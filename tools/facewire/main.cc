@@ -21,6 +21,7 @@ void AddCommands(CLI::App& facewire) {
   using namespace facewire::tools;  // NOLINT(google-build-using-namespace): this list and nothing else
   AddTrack(facewire);
   AddRetarget(facewire);
+  AddNeutral(facewire);
   AddTrain(facewire);
   AddMonitor(facewire);
   AddSheet(facewire);

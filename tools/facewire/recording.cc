@@ -99,6 +99,7 @@ std::vector<RecordedPose> ReadRecording(const std::string& path, const Rig& rig)
     recorded.pose.captured = Time{Duration{static_cast<std::int64_t>(number(kTime))}};
     recorded.age_us = static_cast<std::uint32_t>(number(kAge));
     recorded.tracking = fields[kState] == "tracking";
+    recorded.holding = fields[kState] == "holding";
     recorded.pose.count = columns.size();
     for (std::size_t c = 0; c < columns.size(); ++c) {
       recorded.pose.values[c] = static_cast<float>(number(columns[c]));
@@ -126,7 +127,7 @@ RecordingFigures FiguresOf(const std::vector<RecordedPose>& recording, const Rig
     if (i == 0) continue;
     const RecordedPose& before = recording[i - 1];
     if (recorded.pose.seq > before.pose.seq) figures.missed += recorded.pose.seq - before.pose.seq - 1;
-    if (before.tracking && !recorded.tracking) ++figures.losses;
+    if (before.tracking && recorded.holding) ++figures.losses;
   }
   figures.blinks = blinks.count();
   figures.latency_p50_ms = Quantile(ages_ms, 0.5);

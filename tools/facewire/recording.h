@@ -15,6 +15,7 @@ struct RecordedPose {
   RigPose pose;             // seq and captured are those of the wire
   std::uint32_t age_us = 0;  // from the capture of the picture to sending
   bool tracking = false;    // the rig followed a face
+  bool holding = false;     // the face was just lost
 };
 
 // Reads what `facewire monitor --csv` wrote: frame,t_us,age_us,state,CHANNEL,... with a line a pose. The

@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cstdio>
 #include <deque>
 #include <filesystem>
@@ -11,9 +10,9 @@
 #include "app/profile_file.h"
 #include "app/rig_file.h"
 #include "core/limit/limiter.h"
-#include "core/retarget/neutral_capture.h"
 #include "core/retarget/retargeter.h"
 #include "tools/facewire/commands.h"
+#include "tools/facewire/neutral_taker.h"
 #include "tools/facewire/performance.h"
 #include "tools/facewire/pose_writer.h"
 
@@ -28,31 +27,6 @@ struct RetargetOptions {
   std::string out;
   std::vector<std::string> rigid;
 };
-
-// Of a recording without --neutral, the first so much is the neutral.
-constexpr std::int64_t kDefaultNeutral_us = 2'000'000;
-
-// Frames first .. last - 1; from a default, everything up to a time.
-struct NeutralRange {
-  std::uint64_t first = 0;
-  std::uint64_t last = 0;  // 0: up to kDefaultNeutral_us
-  bool Holds(const Moment& m) const {
-    return last == 0 ? m.t_us < kDefaultNeutral_us : m.frame >= first && m.frame < last;
-  }
-  bool IsOver(const Moment& m) const { return last == 0 ? m.t_us >= kDefaultNeutral_us : m.frame + 1 >= last; }
-};
-
-NeutralRange ParseNeutral(const std::string& text) {
-  NeutralRange range;
-  if (text.empty()) return range;
-  const char* end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, range.first);
-  if (first.ec == std::errc{} && first.ptr != end && *first.ptr == ':') {
-    const auto last = std::from_chars(first.ptr + 1, end, range.last);
-    if (last.ec == std::errc{} && last.ptr == end && range.last > range.first) return range;
-  }
-  throw app::BadInput("--neutral " + text + ": A:B would be right, frames A to B-1, with B above A");
-}
 
 std::filesystem::path ProfilePath(const RetargetOptions& options) {
   if (!options.profile.empty()) return options.profile;
@@ -76,17 +50,10 @@ class Character {
     if (!profile_->mapping().reads_landmarks()) {
       for (Bone& bone : rig_.bones) bone.landmark = -1;
     }
-    memory_.resize(retarget::Retargeter::RequiredBytes() + retarget::NeutralCapture::RequiredBytes());
+    memory_.resize(retarget::Retargeter::RequiredBytes());
     arena_.emplace(std::span(memory_));
     Check(retargeter_.Configure(rig_, &profile_->mapping(), *arena_), options.rig);
     Check(limiter_.Configure(rig_), options.rig);
-    // Whoever names frames, or performs a neutral at the start, means them: nothing is too lively.
-    retarget::NeutralCaptureConfig config;
-    config.duration = Duration::zero();
-    config.min_frames = 1;
-    config.max_stray_cm = 1e6F;
-    config.max_turn_deg = 1e6F;
-    Check(capture_.Configure(config, *arena_), "the neutral");
   }
   Character(const Character&) = delete;
   Character& operator=(const Character&) = delete;
@@ -94,11 +61,8 @@ class Character {
   const Rig& rig() const { return rig_; }
   const retarget::ExpressionMapping& mapping() const { return profile_->mapping(); }
 
-  void AddNeutral(const FacePose& face) { capture_.Add(face); }
-  void TakeNeutral() {
-    const auto neutral = capture_.Finish();
-    if (!neutral) throw app::BadInput("no face is seen in the frames of the neutral; --neutral A:B names others");
-    if (!retargeter_.SetNeutral(*neutral)) {
+  void Use(const retarget::Neutral& neutral) {
+    if (!retargeter_.SetNeutral(neutral)) {
       throw app::BadInput("the frames of the neutral do not show a face that can be used; --neutral A:B names others");
     }
   }
@@ -129,7 +93,6 @@ class Character {
   std::vector<std::byte> memory_;
   std::optional<Arena> arena_;
   retarget::Retargeter retargeter_;
-  retarget::NeutralCapture capture_;
   limit::Limiter limiter_;
   bool was_lost_ = true;
 };
@@ -138,7 +101,7 @@ void Retarget(const RetargetOptions& options) {
   if (IsLive(options.face.input)) {
     throw app::BadInput(options.face.input + ": retarget takes a recording; facewired drives a character live");
   }
-  const NeutralRange range = ParseNeutral(options.neutral);
+  NeutralTaker taker("--neutral", options.neutral);
   const auto character = std::make_unique<Character>(options, app::LoadRig(options.rig));
   const auto performance = IsMarkerFile(options.face.input)
                                ? OpenMarkers(options.face.input, character->mapping(), options.rigid)
@@ -151,7 +114,7 @@ void Retarget(const RetargetOptions& options) {
   std::size_t frames = 0;
   std::size_t faces = 0;
   const auto take_neutral = [&] {
-    character->TakeNeutral();
+    character->Use(taker.Take());
     has_neutral = true;
     for (const Moment& moment : waiting) character->Write(moment, writer);
     waiting.clear();
@@ -163,16 +126,10 @@ void Retarget(const RetargetOptions& options) {
       character->Write(*moment, writer);
       continue;
     }
-    if (moment->face && range.Holds(*moment)) character->AddNeutral(*moment->face);
     waiting.push_back(*moment);
-    if (range.IsOver(*moment)) take_neutral();
+    if (taker.Add(*moment)) take_neutral();
   }
-  if (!has_neutral) {
-    if (range.last > frames) {
-      throw app::BadInput("--neutral " + options.neutral + ": the recording has " + std::to_string(frames) + " frames");
-    }
-    take_neutral();
-  }
+  if (!has_neutral) take_neutral();
   writer.Commit();
   std::fprintf(stderr, "facewire retarget: %zu frames, a face in %zu\n", frames, faces);
 }
