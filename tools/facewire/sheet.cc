@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
@@ -59,9 +60,16 @@ std::vector<Figure> FiguresFor(const RecordingFigures& figures, const std::vecto
 
 // The poses that may be drawn: those that followed a face, of pictures that the video has in this order.
 std::vector<RigPose> Drawable(const std::vector<RecordedPose>& recording, std::uint64_t first) {
+  // The service fades a face in; until then the character is between two poses.
+  constexpr std::chrono::milliseconds kFadeIn{500};
   std::vector<RigPose> poses;
+  Time found{};
+  bool tracking = false;
   for (const RecordedPose& recorded : recording) {
-    if (recorded.tracking && (first == 0 || recorded.pose.seq < first)) poses.push_back(recorded.pose);
+    if (recorded.tracking && !tracking) found = recorded.pose.captured;
+    tracking = recorded.tracking;
+    if (!tracking || recorded.pose.captured < found + kFadeIn) continue;
+    if (first == 0 || recorded.pose.seq < first) poses.push_back(recorded.pose);
   }
   if (poses.empty()) throw app::BadInput("the recording has no frame in which a face was followed");
   return poses;

@@ -27,8 +27,8 @@ constexpr double kBarsTop = 72;
 constexpr double kBarPitch = 22;
 constexpr std::size_t kBarRows = 12;
 constexpr double kBarColumns[] = {kBarsX, kBarsX + 394};
-constexpr double kLabelWidth = 142;
-constexpr double kTrackWidth = 138;
+constexpr double kLabelWidth = 156;
+constexpr double kTrackWidth = 128;
 constexpr double kSmall = 8.5;  // height of a capital in running text
 
 std::string Number(const char* format, double value) {
@@ -78,7 +78,7 @@ void DrawBar(const Channel& channel, float value, cv::Point2d at, const cv::Scal
   const double to = std::max(x_of(value), x_of(channel.neutral));
   canvas.Box({from, at.y - kThick / 2, std::max(2.0, to - from), kThick}, 2, colour);
   canvas.Box({x_of(channel.neutral) - 1, at.y - kThick, 2, 2 * kThick}, 1, palette::kMuted);
-  canvas.Text(ValueText(channel, value), {track + kTrackWidth + 84, at.y + kSmall / 2}, kSmall, palette::kInk,
+  canvas.Text(ValueText(channel, value), {track + kTrackWidth + 80, at.y + kSmall / 2}, kSmall, palette::kInk,
               Align::kRight);
 }
 
