@@ -52,7 +52,8 @@ struct Finding {
 std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 // Runs something that reports by exception.
-Finding Try(const std::string& what, const std::string& good, const std::string& fix, const std::function<void()>& check) {
+Finding Try(const std::string& what, const std::string& good, const std::string& fix,
+            const std::function<void()>& check) {
   try {
     check();
     return {what, Verdict::kOk, good, ""};
@@ -76,13 +77,15 @@ void CheckConfig(const DoctorOptions& options, std::vector<Finding>& findings) {
     return;
   }
   app::Config config;
-  findings.push_back(Try("configuration", options.config, "facewired --check --config " + options.config,
+  findings.push_back(Try("configuration", options.config,
+                         "facewired --check --config " + options.config,
                          [&] { config = app::LoadConfig(options.config); }));
   if (findings.back().verdict != Verdict::kOk) return;
   findings.push_back(Try("rig", config.character.rig.string(), "correct [character] rig",
                          [&] { (void)app::LoadRig(config.character.rig); }));
   if (config.character.profile.empty()) return;
-  findings.push_back(Try("profile", config.character.profile.string(), "correct [character] profile",
+  findings.push_back(Try("profile", config.character.profile.string(),
+                         "correct [character] profile",
                          [&] { (void)app::LoadProfile(config.character.profile); }));
 }
 
@@ -100,11 +103,12 @@ std::vector<std::string> Devices(std::initializer_list<std::string_view> prefixe
   return found;
 }
 
-void CheckDevices(const std::string& what, std::initializer_list<std::string_view> prefixes, const std::string& group,
-                  std::vector<Finding>& findings) {
+void CheckDevices(const std::string& what, std::initializer_list<std::string_view> prefixes,
+                  const std::string& group, std::vector<Finding>& findings) {
   const std::vector<std::string> devices = Devices(prefixes);
   if (devices.empty()) {
-    findings.push_back({what, Verdict::kWarn, "none is plugged in", "plug one in; dmesg shows whether it is seen"});
+    findings.push_back({what, Verdict::kWarn, "none is plugged in",
+                        "plug one in; dmesg shows whether it is seen"});
   }
   for (const std::string& device : devices) {
     const int fd = open(device.c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
@@ -132,7 +136,8 @@ Finding CheckGroup(const std::string& name) {
   if (getegid() == entry->gr_gid || std::ranges::find(groups, entry->gr_gid) != groups.end()) {
     return {"group " + name, Verdict::kOk, "you are in it", ""};
   }
-  return {"group " + name, Verdict::kWarn, "you are not in it", "sudo usermod -aG " + name + " $USER, then log in again"};
+  return {"group " + name, Verdict::kWarn, "you are not in it",
+          "sudo usermod -aG " + name + " $USER, then log in again"};
 }
 
 Finding CheckClock() {
@@ -150,17 +155,20 @@ Finding CheckClock() {
 Finding CheckMemoryLock() {
   constexpr rlim_t kNeeded = rlim_t{256} << 20U;  // more than the service holds without footage
   rlimit limit{};
-  if (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && limit.rlim_cur < kNeeded &&
-      geteuid() != 0) {
-    return {"memory lock", Verdict::kWarn, std::to_string(limit.rlim_cur >> 20U) + " MiB may be locked; pages may go to disk",
-            "run facewired under systemd with LimitMEMLOCK=infinity, or ulimit -l unlimited as root"};
+  if (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
+      limit.rlim_cur < kNeeded && geteuid() != 0) {
+    return {
+        "memory lock", Verdict::kWarn,
+        std::to_string(limit.rlim_cur >> 20U) + " MiB may be locked; pages may go to disk",
+        "run facewired under systemd with LimitMEMLOCK=infinity, or ulimit -l unlimited as root"};
   }
   return {"memory lock", Verdict::kOk, "enough", ""};
 }
 
 void PrintTable(const std::vector<Finding>& findings) {
   for (const Finding& finding : findings) {
-    std::printf("%-5s %-14s %s\n", Name(finding.verdict), finding.what.c_str(), finding.found.c_str());
+    std::printf("%-5s %-14s %s\n", Name(finding.verdict), finding.what.c_str(),
+                finding.found.c_str());
     if (!finding.fix.empty()) std::printf("%-5s %-14s -> %s\n", "", "", finding.fix.c_str());
   }
 }
@@ -191,19 +199,24 @@ void Doctor(const DoctorOptions& options) {
   findings.push_back(CheckMemoryLock());
   options.json ? PrintJson(findings) : PrintTable(findings);
   const auto failed = std::ranges::count(findings, Verdict::kFail, &Finding::verdict);
-  if (failed > 0) throw app::Failure("doctor: " + std::to_string(failed) + " of these must be put right first");
+  if (failed > 0)
+    throw app::Failure("doctor: " + std::to_string(failed) + " of these must be put right first");
 }
 
 }  // namespace
 
 void AddDoctor(CLI::App& facewire) {
   auto options = std::make_shared<DoctorOptions>();
-  CLI::App* command = facewire.add_subcommand("doctor", "Find what keeps this machine from working, and what fixes it");
-  command->add_option("--config", options->config, "The service's configuration")->capture_default_str();
-  command->add_option("--networks", options->networks,
-                      "Folder of the .tflite files; else FACEWIRE_NETWORKS, else the installed ones");
+  CLI::App* command = facewire.add_subcommand(
+      "doctor", "Find what keeps this machine from working, and what fixes it");
+  command->add_option("--config", options->config, "The service's configuration")
+      ->capture_default_str();
+  command->add_option(
+      "--networks", options->networks,
+      "Folder of the .tflite files; else FACEWIRE_NETWORKS, else the installed ones");
   command->add_flag("--json", options->json, "A JSON object a line instead of a table");
-  command->footer("OK: works. WARN: a part will not work. FAIL: must be put right first, exit code 1.");
+  command->footer(
+      "OK: works. WARN: a part will not work. FAIL: must be put right first, exit code 1.");
   command->callback([options] { Doctor(*options); });
 }
 

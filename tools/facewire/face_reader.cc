@@ -18,19 +18,23 @@ constexpr std::chrono::seconds kSilence{5};
 }  // namespace
 
 void AddFaceOptions(CLI::App& command, FaceOptions& options) {
-  command.add_option("--model", options.model, "attention: exact lids, lips and irises; mesh: lighter")
+  command
+      .add_option("--model", options.model, "attention: exact lids, lips and irises; mesh: lighter")
       ->check(CLI::IsMember({"attention", "mesh"}))
       ->capture_default_str();
-  command.add_option("--networks", options.networks,
-                     "Folder of the .tflite files; else FACEWIRE_NETWORKS, else the installed ones");
+  command.add_option(
+      "--networks", options.networks,
+      "Folder of the .tflite files; else FACEWIRE_NETWORKS, else the installed ones");
 }
 
 std::filesystem::path NetworksFolder(const std::string& chosen) {
   if (!chosen.empty()) return chosen;
-  if (const char* set = std::getenv("FACEWIRE_NETWORKS"); set != nullptr && *set != '\0') return set;
+  if (const char* set = std::getenv("FACEWIRE_NETWORKS"); set != nullptr && *set != '\0')
+    return set;
   const std::filesystem::path installed = FACEWIRE_INSTALLED_SHARE "/networks";
   const std::filesystem::path unpacked = FACEWIRE_ASSETS "/networks";
-  return !std::filesystem::exists(installed) && std::filesystem::exists(unpacked) ? unpacked : installed;
+  return !std::filesystem::exists(installed) && std::filesystem::exists(unpacked) ? unpacked
+                                                                                  : installed;
 }
 
 bool IsLive(const std::string& input) {
@@ -58,7 +62,8 @@ void FaceReader::LoadNetworks(const FaceOptions& options) {
   memory_ = std::make_unique<std::byte[]>(size);
   arena_.emplace(std::span(memory_.get(), size));
   const auto loaded = tracker_.Load(config, networks.files(), *arena_);
-  if (!loaded) throw app::Failure("loading the networks in " + folder.string() + ": " + Name(loaded.error()));
+  if (!loaded)
+    throw app::Failure("loading the networks in " + folder.string() + ": " + Name(loaded.error()));
 }
 
 std::optional<Frame> FaceReader::Next() {

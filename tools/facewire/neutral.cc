@@ -20,7 +20,8 @@ struct NeutralOptions {
 
 void Neutral(const NeutralOptions& options) {
   if (IsLive(options.face.input)) {
-    throw app::BadInput(options.face.input + ": a video is needed; a live performer is calibrated by facewired");
+    throw app::BadInput(options.face.input +
+                        ": a video is needed; a live performer is calibrated by facewired");
   }
   NeutralTaker taker("--frames", options.frames);
   const auto performance = OpenVideo(options.face);
@@ -34,10 +35,14 @@ void Neutral(const NeutralOptions& options) {
 
 void AddNeutral(CLI::App& facewire) {
   auto options = std::make_shared<NeutralOptions>();
-  CLI::App* command = facewire.add_subcommand("neutral", "Take a performer's face at rest from a video, for facewired");
+  CLI::App* command = facewire.add_subcommand(
+      "neutral", "Take a performer's face at rest from a video, for facewired");
   command->add_option("INPUT", options->face.input, "A video file")->required();
-  command->add_option("--frames", options->frames, "A:B, the median of frames A to B-1; else of the first two seconds");
-  command->add_option("--out", options->out, "The file to write; facewired reads performer.neutral in its [neutral] folder")
+  command->add_option("--frames", options->frames,
+                      "A:B, the median of frames A to B-1; else of the first two seconds");
+  command
+      ->add_option("--out", options->out,
+                   "The file to write; facewired reads performer.neutral in its [neutral] folder")
       ->required();
   AddFaceOptions(*command, options->face);
   command->callback([options] { Neutral(*options); });

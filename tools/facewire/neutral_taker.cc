@@ -29,12 +29,14 @@ NeutralTaker::NeutralTaker(const std::string& option, const std::string& range)
   config.max_stray_cm = 1e6F;
   config.max_turn_deg = 1e6F;
   arena_.emplace(std::span(memory_));
-  if (!capture_.Configure(config, *arena_)) throw app::Failure("the memory for the neutral is too small");
+  if (!capture_.Configure(config, *arena_))
+    throw app::Failure("the memory for the neutral is too small");
 }
 
 bool NeutralTaker::Add(const Moment& moment) {
   seen_ = moment.frame + 1;
-  const bool inside = last_ == 0 ? moment.t_us < kDefault_us : moment.frame >= first_ && moment.frame < last_;
+  const bool inside =
+      last_ == 0 ? moment.t_us < kDefault_us : moment.frame >= first_ && moment.frame < last_;
   if (inside && moment.face) capture_.Add(*moment.face);
   return last_ == 0 ? moment.t_us >= kDefault_us : seen_ >= last_;
 }

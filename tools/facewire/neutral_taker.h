@@ -13,15 +13,16 @@
 
 namespace facewire::tools {
 
-// Takes the face at rest from chosen frames of a recording: the median of frames A to B-1 ("A:B"), or,
-// when nothing is chosen, of the first two seconds. Whoever names frames means them: no frame is refused
-// for being lively, unlike in the service.
+// Takes the face at rest from chosen frames of a recording: the median of frames A to B-1 ("A:B"),
+// or, when nothing is chosen, of the first two seconds. Whoever names frames means them: no frame
+// is refused for being lively, unlike in the service.
 class NeutralTaker {
  public:
   // Throws BadInput for anything but "" and "A:B" with B above A; `option` is named in messages.
   NeutralTaker(const std::string& option, const std::string& range);
 
-  // Call with every frame from the first on, until it returns true: the last one of the range was seen.
+  // Call with every frame from the first on, until it returns true: the last one of the range was
+  // seen.
   bool Add(const Moment& moment);
   // Throws BadInput when the recording ended before the range did, or showed no face in it.
   retarget::Neutral Take();

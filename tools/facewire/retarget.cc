@@ -31,7 +31,8 @@ struct RetargetOptions {
 std::filesystem::path ProfilePath(const RetargetOptions& options) {
   if (!options.profile.empty()) return options.profile;
   if (IsMarkerFile(options.face.input)) {
-    throw app::BadInput("markers need --profile, a profile that was trained with markers of the same names");
+    throw app::BadInput(
+        "markers need --profile, a profile that was trained with markers of the same names");
   }
   const std::filesystem::path installed = FACEWIRE_INSTALLED_SHARE "/average.profile";
   return std::filesystem::exists(installed) ? installed : FACEWIRE_SOURCE_SHARE "/average.profile";
@@ -63,7 +64,9 @@ class Character {
 
   void Use(const retarget::Neutral& neutral) {
     if (!retargeter_.SetNeutral(neutral)) {
-      throw app::BadInput("the frames of the neutral do not show a face that can be used; --neutral A:B names others");
+      throw app::BadInput(
+          "the frames of the neutral do not show a face that can be used; --neutral A:B names "
+          "others");
     }
   }
 
@@ -80,7 +83,8 @@ class Character {
     HeadMotion head{};
     const auto signals = retargeter_.signals().last(head.size());
     std::copy(signals.begin(), signals.end(), head.begin());
-    writer.Write(moment.frame, moment.t_us, head, limiter_.Update(wish, Time{Duration{moment.t_us}}));
+    writer.Write(moment.frame, moment.t_us, head,
+                 limiter_.Update(wish, Time{Duration{moment.t_us}}));
   }
 
  private:
@@ -99,13 +103,15 @@ class Character {
 
 void Retarget(const RetargetOptions& options) {
   if (IsLive(options.face.input)) {
-    throw app::BadInput(options.face.input + ": retarget takes a recording; facewired drives a character live");
+    throw app::BadInput(options.face.input +
+                        ": retarget takes a recording; facewired drives a character live");
   }
   NeutralTaker taker("--neutral", options.neutral);
   const auto character = std::make_unique<Character>(options, app::LoadRig(options.rig));
-  const auto performance = IsMarkerFile(options.face.input)
-                               ? OpenMarkers(options.face.input, character->mapping(), options.rigid)
-                               : OpenVideo(options.face);
+  const auto performance =
+      IsMarkerFile(options.face.input)
+          ? OpenMarkers(options.face.input, character->mapping(), options.rigid)
+          : OpenVideo(options.face);
   PoseWriter writer(options.out, character->rig());
 
   // Frames wait until the neutral is known, and are written from the first one on.
@@ -138,15 +144,25 @@ void Retarget(const RetargetOptions& options) {
 
 void AddRetarget(CLI::App& facewire) {
   auto options = std::make_shared<RetargetOptions>();
-  CLI::App* command = facewire.add_subcommand("retarget", "Drive a character from a recording and write its poses");
-  command->add_option("INPUT", options->face.input, "A video, or recorded markers: .csv (NAME_x,NAME_y,NAME_z; cm), .trc or .c3d")
+  CLI::App* command =
+      facewire.add_subcommand("retarget", "Drive a character from a recording and write its poses");
+  command
+      ->add_option("INPUT", options->face.input,
+                   "A video, or recorded markers: .csv (NAME_x,NAME_y,NAME_z; cm), .trc or .c3d")
       ->required();
   command->add_option("--rig", options->rig, "The character")->required();
-  command->add_option("--profile", options->profile, "The trained mapping; for videos, the shipped one unless named");
-  command->add_option("--neutral", options->neutral,
-                      "A:B, the face at rest is the median of frames A to B-1; else of the first two seconds");
-  command->add_option("--out", options->out, "The file to write; .csv for CSV, JSON lines otherwise")->required();
-  command->add_option("--rigid", options->rigid, "Markers that only follow the head, to take its motion out; without, there is none in")
+  command->add_option("--profile", options->profile,
+                      "The trained mapping; for videos, the shipped one unless named");
+  command->add_option(
+      "--neutral", options->neutral,
+      "A:B, the face at rest is the median of frames A to B-1; else of the first two seconds");
+  command
+      ->add_option("--out", options->out, "The file to write; .csv for CSV, JSON lines otherwise")
+      ->required();
+  command
+      ->add_option(
+          "--rigid", options->rigid,
+          "Markers that only follow the head, to take its motion out; without, there is none in")
       ->delimiter(',');
   AddFaceOptions(*command, options->face);
   command->callback([options] { Retarget(*options); });

@@ -17,7 +17,8 @@ TEST(FacewireCli, HelpsAndTellsItsVersion) {
   const Outcome help = RunFacewire({"--help"});
   EXPECT_EQ(help.code, 0);
   EXPECT_THAT(RunFacewire({"--version"}).out, StartsWith("facewire "));
-  for (const char* command : {"track", "retarget", "neutral", "train", "monitor", "sheet", "doctor"}) {
+  for (const char* command :
+       {"track", "retarget", "neutral", "train", "monitor", "sheet", "doctor"}) {
     EXPECT_THAT(help.out, HasSubstr(command));
     const Outcome own = RunFacewire({command, "--help"});
     EXPECT_EQ(own.code, 0) << command;
@@ -30,7 +31,8 @@ TEST(FacewireCli, AnswersBadInputWithOneLineAndExitCode2) {
   const Scratch scratch;
   const std::string out = scratch.Path("out.jsonl");
   const std::string no_video = scratch.Write("no_video.mp4", "this is text");
-  const std::string rig = scratch.Write("rig.toml", "name = \"r\"\n[[parameter]]\nname = \"jawOpen\"\n");
+  const std::string rig =
+      scratch.Write("rig.toml", "name = \"r\"\n[[parameter]]\nname = \"jawOpen\"\n");
   const std::string markers = scratch.Write("m.csv", "a_x,a_y,a_z\n1,2,3\n");
   struct Case {
     std::vector<std::string> arguments;

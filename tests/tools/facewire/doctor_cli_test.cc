@@ -19,7 +19,8 @@ TEST(FacewireDoctor, SaysWhatIsMissingAndWhatFixesIt) {
 TEST(FacewireDoctor, ReadsTheConfigurationThatItIsGiven) {
   const Scratch scratch;
   const std::string config = scratch.Write("f.toml", "[camera]\nwidth = 3\n");
-  const Outcome outcome = RunFacewire({"doctor", "--config", config, "--networks", FACEWIRE_ASSETS "/networks", "--json"});
+  const Outcome outcome = RunFacewire(
+      {"doctor", "--config", config, "--networks", FACEWIRE_ASSETS "/networks", "--json"});
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.out, HasSubstr("{\"check\":\"networks\",\"verdict\":\"OK\""));
   EXPECT_THAT(outcome.out, HasSubstr("{\"check\":\"configuration\",\"verdict\":\"FAIL\""));

@@ -30,7 +30,8 @@ Outcome RunFacewire(const std::vector<std::string>& arguments) {
   const Scratch scratch;
   std::string command = Quoted(FACEWIRE_TOOL);
   for (const std::string& argument : arguments) command += " " + Quoted(argument);
-  command += " >" + Quoted(scratch.Path("out")) + " 2>" + Quoted(scratch.Path("err")) + " </dev/null";
+  command +=
+      " >" + Quoted(scratch.Path("out")) + " 2>" + Quoted(scratch.Path("err")) + " </dev/null";
   const int status = std::system(command.c_str());
   Outcome outcome;
   if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
@@ -54,8 +55,8 @@ std::string Scratch::Write(const std::string& name, const std::string& contents)
 std::string Scratch::Read(const std::string& name) const { return ReadFile(Path(name)); }
 
 std::size_t Scratch::Files() const {
-  return static_cast<std::size_t>(
-      std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator()));
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_),
+                                                std::filesystem::directory_iterator()));
 }
 
 std::string ShortClip(const Scratch& scratch, int frames) {

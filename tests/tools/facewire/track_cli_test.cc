@@ -16,7 +16,8 @@ using testing::StartsWith;
 
 TEST(FacewireTrack, WritesALineAFrameWithEveryLandmark) {
   const Scratch scratch;
-  const Outcome outcome = RunFacewire({"track", ShortClip(scratch, 5), "--out", scratch.Path("f.jsonl")});
+  const Outcome outcome =
+      RunFacewire({"track", ShortClip(scratch, 5), "--out", scratch.Path("f.jsonl")});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const std::string lines = scratch.Read("f.jsonl");
   EXPECT_EQ(std::ranges::count(lines, '\n'), 5);
@@ -28,8 +29,8 @@ TEST(FacewireTrack, WritesALineAFrameWithEveryLandmark) {
 
 TEST(FacewireTrack, OffersTheLightModelAndTheFilter) {
   const Scratch scratch;
-  const Outcome outcome =
-      RunFacewire({"track", ShortClip(scratch, 3), "--model", "mesh", "--filtered", "--out", scratch.Path("f.jsonl")});
+  const Outcome outcome = RunFacewire({"track", ShortClip(scratch, 3), "--model", "mesh",
+                                       "--filtered", "--out", scratch.Path("f.jsonl")});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const std::string lines = scratch.Read("f.jsonl");
   EXPECT_EQ(std::ranges::count(lines.substr(0, lines.find('\n')), '['), 1 + 468);
@@ -38,7 +39,8 @@ TEST(FacewireTrack, OffersTheLightModelAndTheFilter) {
 TEST(FacewireTrack, PlaysWhatIsThereOfAVideoThatBreaksOff) {
   const Scratch scratch;
   std::ifstream whole(ShortClip(scratch, 20), std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(whole)), std::istreambuf_iterator<char>());
+  const std::string bytes((std::istreambuf_iterator<char>(whole)),
+                          std::istreambuf_iterator<char>());
   const std::string cut = scratch.Write("cut.avi", bytes.substr(0, bytes.size() / 2));
   const Outcome outcome = RunFacewire({"track", cut, "--out", scratch.Path("f.jsonl")});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
