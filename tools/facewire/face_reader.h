@@ -26,22 +26,23 @@ struct FaceOptions {
 // Adds --model and --networks.
 void AddFaceOptions(CLI::App& command, FaceOptions& options);
 
-// Where the networks are: `chosen`, else the environment's FACEWIRE_NETWORKS, else the installed ones,
-// else those that tools/setup unpacked beside the sources. Whether files are there is for the reader.
+// Where the networks are: `chosen`, else the environment's FACEWIRE_NETWORKS, else the installed
+// ones, else those that tools/setup unpacked beside the sources. Whether files are there is for the
+// reader.
 std::filesystem::path NetworksFolder(const std::string& chosen);
 
 bool IsLive(const std::string& input);
 
-// The pictures of an input with what the tracker found in them, one after the other: a file as fast as
-// possible and without gaps, a camera as it delivers.
+// The pictures of an input with what the tracker found in them, one after the other: a file as fast
+// as possible and without gaps, a camera as it delivers.
 class FaceReader {
  public:
   // Opens the input and loads the networks. Throws BadInput, Failure.
   explicit FaceReader(const FaceOptions& options);
   ~FaceReader();
 
-  // The next picture, whose pixels are there until the next call; nullopt at the end of a recording.
-  // Throws Failure when a camera falls silent or goes.
+  // The next picture, whose pixels are there until the next call; nullopt at the end of a
+  // recording. Throws Failure when a camera falls silent or goes.
   std::optional<Frame> Next();
   // What is in the picture that Next gave. kNoFace.
   Result<Landmarks> Track();

@@ -13,8 +13,8 @@ void AppendNumber(std::string& out, double value, int decimals) {
   }
   // Any finite double with a few decimals fits: 309 digits before the point at most.
   std::array<char, 384> text{};
-  const auto [end, error] =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, decimals);
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value,
+                                          std::chars_format::fixed, decimals);
   std::string_view number(text.data(), static_cast<std::size_t>(end - text.data()));
   if (number.find('.') != std::string_view::npos) {
     number = number.substr(0, number.find_last_not_of('0') + 1);

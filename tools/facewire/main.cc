@@ -18,9 +18,11 @@ int Report(const std::string& what, int code) {
 }
 
 void AddCommands(CLI::App& facewire) {
-  using namespace facewire::tools;  // NOLINT(google-build-using-namespace): this list and nothing else
+  using namespace facewire::tools;  // NOLINT(google-build-using-namespace): this list and nothing
+                                    // else
   AddTrack(facewire);
   AddRetarget(facewire);
+  AddNeutral(facewire);
   AddTrain(facewire);
   AddMonitor(facewire);
   AddSheet(facewire);
@@ -30,12 +32,14 @@ void AddCommands(CLI::App& facewire) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App facewire("facewire: from a performer's face to a character's bones and blend shapes.", "facewire");
+  CLI::App facewire("facewire: from a performer's face to a character's bones and blend shapes.",
+                    "facewire");
   facewire.set_version_flag("--version", "facewire " FACEWIRE_VERSION);
   facewire.require_subcommand(1);
   facewire.get_formatter()->column_width(34);
-  facewire.footer("Exit codes: 0 done, 1 failed at work, 2 bad usage or bad input.\n"
-                  "`facewire COMMAND --help` tells more about a command.");
+  facewire.footer(
+      "Exit codes: 0 done, 1 failed at work, 2 bad usage or bad input.\n"
+      "`facewire COMMAND --help` tells more about a command.");
   AddCommands(facewire);
   try {
     facewire.parse(argc, argv);

@@ -21,7 +21,8 @@ namespace {
 std::array<char, PATH_MAX> doomed{};
 volatile std::sig_atomic_t has_doomed = 0;
 
-// Only calls that POSIX allows in a signal handler. The signal then ends the program as it would have.
+// Only calls that POSIX allows in a signal handler. The signal then ends the program as it would
+// have.
 extern "C" void RemoveAndDie(int signal) {
   if (has_doomed != 0) unlink(doomed.data());
   std::signal(signal, SIG_DFL);
@@ -45,7 +46,9 @@ void RemoveOnSignal(const std::string& path) {
 }  // namespace
 
 OutputFile::OutputFile(const std::string& path) : path_(path) {
-  const auto refuse = [&](const std::string& why) { throw app::BadInput("cannot write " + path_ + ": " + why); };
+  const auto refuse = [&](const std::string& why) {
+    throw app::BadInput("cannot write " + path_ + ": " + why);
+  };
   struct stat status {};
   const bool exists = stat(path.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) refuse("it is a folder, a file is needed");
@@ -63,7 +66,8 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
     refuse(errno == ENOENT ? "its folder does not exist" : std::strerror(errno));
   }
   RemoveOnSignal(temporary_);
-  // mkstemp keeps others out; a result has the permissions of any new file, or of the one it replaces.
+  // mkstemp keeps others out; a result has the permissions of any new file, or of the one it
+  // replaces.
   const mode_t mask = umask(0);
   umask(mask);
   fchmod(fd, exists ? status.st_mode & 07777 : 0666 & ~mask);

@@ -58,7 +58,8 @@ std::vector<std::size_t> Find(const markers::Take& take, const std::vector<std::
     if (at == take.names.end()) missing += (missing.empty() ? "" : ", ") + name;
     found.push_back(static_cast<std::size_t>(at - take.names.begin()));
   }
-  if (!missing.empty()) throw app::BadInput(path + ": " + who + " needs markers that it does not have: " + missing);
+  if (!missing.empty())
+    throw app::BadInput(path + ": " + who + " needs markers that it does not have: " + missing);
   return found;
 }
 
@@ -72,7 +73,8 @@ bool Seen(Point3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::is
 
 class Markers final : public Performance {
  public:
-  Markers(const std::string& path, const retarget::ExpressionMapping& mapping, const std::vector<std::string>& rigid)
+  Markers(const std::string& path, const retarget::ExpressionMapping& mapping,
+          const std::vector<std::string>& rigid)
       : path_(path),
         take_(markers::ReadTake(path)),
         read_(Find(take_, NamesOf(mapping), path, "the profile")),
@@ -109,9 +111,11 @@ class Markers final : public Performance {
       for (const std::size_t m : rigid_) reference_.push_back(frame[m]);
     }
     std::vector<pose::PointPair> pairs;
-    for (std::size_t i = 0; i < rigid_.size(); ++i) pairs.push_back({reference_[i], frame[rigid_[i]], 1});
+    for (std::size_t i = 0; i < rigid_.size(); ++i)
+      pairs.push_back({reference_[i], frame[rigid_[i]], 1});
     const auto fit = pose::FitSimilarity(pairs);
-    if (!fit) throw app::BadInput(path_ + ": --rigid needs three markers or more that are not on one line");
+    if (!fit)
+      throw app::BadInput(path_ + ": --rigid needs three markers or more that are not on one line");
     face.camera_R_head = fit->rotation;
     // Markers do not grow: the fit without its scale.
     face.camera_t_head_cm = fit->to_centre - fit->rotation * fit->from_centre;
@@ -126,7 +130,7 @@ class Markers final : public Performance {
 
   std::string path_;
   markers::Take take_;
-  std::vector<std::size_t> read_;    // marker of the take for each of the mapping's
+  std::vector<std::size_t> read_;  // marker of the take for each of the mapping's
   std::vector<std::size_t> rigid_;
   std::vector<std::int16_t> points_;  // of FacePose, for each of the mapping's
   std::vector<Point3> reference_;
@@ -135,9 +139,12 @@ class Markers final : public Performance {
 
 }  // namespace
 
-std::unique_ptr<Performance> OpenVideo(const FaceOptions& options) { return std::make_unique<Video>(options); }
+std::unique_ptr<Performance> OpenVideo(const FaceOptions& options) {
+  return std::make_unique<Video>(options);
+}
 
-std::unique_ptr<Performance> OpenMarkers(const std::string& path, const retarget::ExpressionMapping& mapping,
+std::unique_ptr<Performance> OpenMarkers(const std::string& path,
+                                         const retarget::ExpressionMapping& mapping,
                                          const std::vector<std::string>& rigid) {
   return std::make_unique<Markers>(path, mapping, rigid);
 }

@@ -26,7 +26,8 @@ void AppendKey(std::string& line, std::string_view name, bool first) {
 
 }  // namespace
 
-PoseWriter::PoseWriter(const std::string& path, const Rig& rig) : out_(path), rig_(rig), csv_(path.ends_with(".csv")) {
+PoseWriter::PoseWriter(const std::string& path, const Rig& rig)
+    : out_(path), rig_(rig), csv_(path.ends_with(".csv")) {
   if (!csv_) return;
   std::string header = "frame,t_us,state";
   for (const std::string_view name : kHeadNames) header.append(",head.").append(name);
@@ -34,7 +35,8 @@ PoseWriter::PoseWriter(const std::string& path, const Rig& rig) : out_(path), ri
   out_.Write(header + "\n");
 }
 
-void PoseWriter::Write(std::uint64_t frame, std::int64_t t_us, const HeadMotion& head, const RigPose& pose) {
+void PoseWriter::Write(std::uint64_t frame, std::int64_t t_us, const HeadMotion& head,
+                       const RigPose& pose) {
   std::string line;
   if (csv_) {
     line = std::to_string(frame) + "," + std::to_string(t_us) + ",tracking";
@@ -63,7 +65,8 @@ void PoseWriter::Write(std::uint64_t frame, std::int64_t t_us, const HeadMotion&
 void PoseWriter::WriteLost(std::uint64_t frame, std::int64_t t_us) {
   if (csv_) {
     const std::size_t empty = kHeadNames.size() + rig_.channels.size();
-    out_.Write(std::to_string(frame) + "," + std::to_string(t_us) + ",searching" + std::string(empty, ',') + "\n");
+    out_.Write(std::to_string(frame) + "," + std::to_string(t_us) + ",searching" +
+               std::string(empty, ',') + "\n");
     return;
   }
   out_.Write("{\"frame\":" + std::to_string(frame) + ",\"t_us\":" + std::to_string(t_us) +

@@ -13,8 +13,8 @@ namespace facewire::tools {
 // Of the head from where it was in the neutral: pitch, yaw, roll in degrees, x, y, z in cm.
 using HeadMotion = std::array<float, 6>;
 
-// Writes what `facewire retarget` gives, a line a frame; as CSV when the path ends in .csv, else as JSON
-// lines. A frame without a face has the state "searching" and no values.
+// Writes what `facewire retarget` gives, a line a frame; as CSV when the path ends in .csv, else as
+// JSON lines. A frame without a face has the state "searching" and no values.
 //   JSON: {"frame":0,"t_us":0,"state":"tracking","head":{"pitch":..,..,"z":..},
 //          "bones":{"jaw":{"pos":[x,y,z],"rot":[pitch,yaw,roll]}},"params":{"jawOpen":0.31}}
 //         pos in cm from the bone's rest, rot in degrees; an axis without a channel is 0

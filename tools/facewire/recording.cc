@@ -32,13 +32,17 @@ std::vector<std::size_t> ColumnsOf(const std::vector<std::string_view>& header, 
                                    const std::string& path) {
   if (header.size() < kFirstChannel || header[kFrame] != "frame" || header[kTime] != "t_us" ||
       header[kAge] != "age_us" || header[kState] != "state") {
-    Refuse(path, 1, "not a recording: it begins frame,t_us,age_us,state when `facewire monitor --csv` made it");
+    Refuse(
+        path, 1,
+        "not a recording: it begins frame,t_us,age_us,state when `facewire monitor --csv` made it");
   }
   std::vector<std::size_t> columns;
   for (const Channel& channel : rig.channels) {
     const auto found = std::ranges::find(header, channel.name.view());
     if (found == header.end()) {
-      Refuse(path, 1, "the rig's channel " + std::string(channel.name.view()) + " is not in it; is it another rig's?");
+      Refuse(path, 1,
+             "the rig's channel " + std::string(channel.name.view()) +
+                 " is not in it; is it another rig's?");
     }
     columns.push_back(static_cast<std::size_t>(found - header.begin()));
   }
@@ -47,7 +51,8 @@ std::vector<std::size_t> ColumnsOf(const std::vector<std::string_view>& header, 
 
 double Quantile(std::vector<double> values, double part) {
   if (values.empty()) return 0;
-  const auto at = static_cast<std::size_t>(std::ceil(part * static_cast<double>(values.size()))) - 1;
+  const auto at =
+      static_cast<std::size_t>(std::ceil(part * static_cast<double>(values.size()))) - 1;
   std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(at));
   return values[at];
 }
@@ -77,7 +82,8 @@ class Counter {
 std::vector<RecordedPose> ReadRecording(const std::string& path, const Rig& rig) {
   std::ifstream file(path);
   if (!file) throw app::BadInput("cannot read the recording " + path);
-  const std::string contents((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const std::string contents((std::istreambuf_iterator<char>(file)),
+                             std::istreambuf_iterator<char>());
   const auto lines = markers::Lines(contents);
   if (lines.empty()) throw app::BadInput(path + ": it is empty");
   const auto header = Fields(lines[0], ',');
@@ -87,11 +93,14 @@ std::vector<RecordedPose> ReadRecording(const std::string& path, const Rig& rig)
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const auto fields = Fields(lines[i], ',');
     if (fields.size() != header.size()) {
-      Refuse(path, i + 1, std::to_string(fields.size()) + " fields; the header has " + std::to_string(header.size()));
+      Refuse(path, i + 1,
+             std::to_string(fields.size()) + " fields; the header has " +
+                 std::to_string(header.size()));
     }
     const auto number = [&](std::size_t column) {
       const auto value = NumberOrGap(fields[column]);
-      if (!value || std::isnan(*value)) Refuse(path, i + 1, "\"" + std::string(fields[column]) + "\" is not a number");
+      if (!value || std::isnan(*value))
+        Refuse(path, i + 1, "\"" + std::string(fields[column]) + "\" is not a number");
       return *value;
     };
     RecordedPose recorded;
@@ -99,11 +108,13 @@ std::vector<RecordedPose> ReadRecording(const std::string& path, const Rig& rig)
     recorded.pose.captured = Time{Duration{static_cast<std::int64_t>(number(kTime))}};
     recorded.age_us = static_cast<std::uint32_t>(number(kAge));
     recorded.tracking = fields[kState] == "tracking";
+    recorded.holding = fields[kState] == "holding";
     recorded.pose.count = columns.size();
     for (std::size_t c = 0; c < columns.size(); ++c) {
       recorded.pose.values[c] = static_cast<float>(number(columns[c]));
     }
-    if (recording.empty() || recording.back().pose.seq != recorded.pose.seq) recording.push_back(recorded);
+    if (recording.empty() || recording.back().pose.seq != recorded.pose.seq)
+      recording.push_back(recorded);
   }
   if (recording.empty()) throw app::BadInput(path + ": it has no poses");
   return recording;
@@ -113,7 +124,8 @@ RecordingFigures FiguresOf(const std::vector<RecordedPose>& recording, const Rig
   RecordingFigures figures;
   if (recording.empty()) return figures;
   figures.frames = recording.size();
-  const auto span = std::chrono::duration<double>(recording.back().pose.captured - recording.front().pose.captured);
+  const auto span = std::chrono::duration<double>(recording.back().pose.captured -
+                                                  recording.front().pose.captured);
   if (span.count() > 0) figures.fps = static_cast<double>(recording.size() - 1) / span.count();
 
   std::vector<double> ages_ms;
@@ -125,8 +137,9 @@ RecordingFigures FiguresOf(const std::vector<RecordedPose>& recording, const Rig
     blinks.Add(std::min(character.lid_left, character.lid_right));
     if (i == 0) continue;
     const RecordedPose& before = recording[i - 1];
-    if (recorded.pose.seq > before.pose.seq) figures.missed += recorded.pose.seq - before.pose.seq - 1;
-    if (before.tracking && !recorded.tracking) ++figures.losses;
+    if (recorded.pose.seq > before.pose.seq)
+      figures.missed += recorded.pose.seq - before.pose.seq - 1;
+    if (before.tracking && recorded.holding) ++figures.losses;
   }
   figures.blinks = blinks.count();
   figures.latency_p50_ms = Quantile(ages_ms, 0.5);

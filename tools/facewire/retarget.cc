@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cstdio>
 #include <deque>
 #include <filesystem>
@@ -11,9 +10,9 @@
 #include "app/profile_file.h"
 #include "app/rig_file.h"
 #include "core/limit/limiter.h"
-#include "core/retarget/neutral_capture.h"
 #include "core/retarget/retargeter.h"
 #include "tools/facewire/commands.h"
+#include "tools/facewire/neutral_taker.h"
 #include "tools/facewire/performance.h"
 #include "tools/facewire/pose_writer.h"
 
@@ -29,35 +28,11 @@ struct RetargetOptions {
   std::vector<std::string> rigid;
 };
 
-// Of a recording without --neutral, the first so much is the neutral.
-constexpr std::int64_t kDefaultNeutral_us = 2'000'000;
-
-// Frames first .. last - 1; from a default, everything up to a time.
-struct NeutralRange {
-  std::uint64_t first = 0;
-  std::uint64_t last = 0;  // 0: up to kDefaultNeutral_us
-  bool Holds(const Moment& m) const {
-    return last == 0 ? m.t_us < kDefaultNeutral_us : m.frame >= first && m.frame < last;
-  }
-  bool IsOver(const Moment& m) const { return last == 0 ? m.t_us >= kDefaultNeutral_us : m.frame + 1 >= last; }
-};
-
-NeutralRange ParseNeutral(const std::string& text) {
-  NeutralRange range;
-  if (text.empty()) return range;
-  const char* end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, range.first);
-  if (first.ec == std::errc{} && first.ptr != end && *first.ptr == ':') {
-    const auto last = std::from_chars(first.ptr + 1, end, range.last);
-    if (last.ec == std::errc{} && last.ptr == end && range.last > range.first) return range;
-  }
-  throw app::BadInput("--neutral " + text + ": A:B would be right, frames A to B-1, with B above A");
-}
-
 std::filesystem::path ProfilePath(const RetargetOptions& options) {
   if (!options.profile.empty()) return options.profile;
   if (IsMarkerFile(options.face.input)) {
-    throw app::BadInput("markers need --profile, a profile that was trained with markers of the same names");
+    throw app::BadInput(
+        "markers need --profile, a profile that was trained with markers of the same names");
   }
   const std::filesystem::path installed = FACEWIRE_INSTALLED_SHARE "/average.profile";
   return std::filesystem::exists(installed) ? installed : FACEWIRE_SOURCE_SHARE "/average.profile";
@@ -76,17 +51,10 @@ class Character {
     if (!profile_->mapping().reads_landmarks()) {
       for (Bone& bone : rig_.bones) bone.landmark = -1;
     }
-    memory_.resize(retarget::Retargeter::RequiredBytes() + retarget::NeutralCapture::RequiredBytes());
+    memory_.resize(retarget::Retargeter::RequiredBytes());
     arena_.emplace(std::span(memory_));
     Check(retargeter_.Configure(rig_, &profile_->mapping(), *arena_), options.rig);
     Check(limiter_.Configure(rig_), options.rig);
-    // Whoever names frames, or performs a neutral at the start, means them: nothing is too lively.
-    retarget::NeutralCaptureConfig config;
-    config.duration = Duration::zero();
-    config.min_frames = 1;
-    config.max_stray_cm = 1e6F;
-    config.max_turn_deg = 1e6F;
-    Check(capture_.Configure(config, *arena_), "the neutral");
   }
   Character(const Character&) = delete;
   Character& operator=(const Character&) = delete;
@@ -94,12 +62,11 @@ class Character {
   const Rig& rig() const { return rig_; }
   const retarget::ExpressionMapping& mapping() const { return profile_->mapping(); }
 
-  void AddNeutral(const FacePose& face) { capture_.Add(face); }
-  void TakeNeutral() {
-    const auto neutral = capture_.Finish();
-    if (!neutral) throw app::BadInput("no face is seen in the frames of the neutral; --neutral A:B names others");
-    if (!retargeter_.SetNeutral(*neutral)) {
-      throw app::BadInput("the frames of the neutral do not show a face that can be used; --neutral A:B names others");
+  void Use(const retarget::Neutral& neutral) {
+    if (!retargeter_.SetNeutral(neutral)) {
+      throw app::BadInput(
+          "the frames of the neutral do not show a face that can be used; --neutral A:B names "
+          "others");
     }
   }
 
@@ -116,7 +83,8 @@ class Character {
     HeadMotion head{};
     const auto signals = retargeter_.signals().last(head.size());
     std::copy(signals.begin(), signals.end(), head.begin());
-    writer.Write(moment.frame, moment.t_us, head, limiter_.Update(wish, Time{Duration{moment.t_us}}));
+    writer.Write(moment.frame, moment.t_us, head,
+                 limiter_.Update(wish, Time{Duration{moment.t_us}}));
   }
 
  private:
@@ -129,20 +97,21 @@ class Character {
   std::vector<std::byte> memory_;
   std::optional<Arena> arena_;
   retarget::Retargeter retargeter_;
-  retarget::NeutralCapture capture_;
   limit::Limiter limiter_;
   bool was_lost_ = true;
 };
 
 void Retarget(const RetargetOptions& options) {
   if (IsLive(options.face.input)) {
-    throw app::BadInput(options.face.input + ": retarget takes a recording; facewired drives a character live");
+    throw app::BadInput(options.face.input +
+                        ": retarget takes a recording; facewired drives a character live");
   }
-  const NeutralRange range = ParseNeutral(options.neutral);
+  NeutralTaker taker("--neutral", options.neutral);
   const auto character = std::make_unique<Character>(options, app::LoadRig(options.rig));
-  const auto performance = IsMarkerFile(options.face.input)
-                               ? OpenMarkers(options.face.input, character->mapping(), options.rigid)
-                               : OpenVideo(options.face);
+  const auto performance =
+      IsMarkerFile(options.face.input)
+          ? OpenMarkers(options.face.input, character->mapping(), options.rigid)
+          : OpenVideo(options.face);
   PoseWriter writer(options.out, character->rig());
 
   // Frames wait until the neutral is known, and are written from the first one on.
@@ -151,7 +120,7 @@ void Retarget(const RetargetOptions& options) {
   std::size_t frames = 0;
   std::size_t faces = 0;
   const auto take_neutral = [&] {
-    character->TakeNeutral();
+    character->Use(taker.Take());
     has_neutral = true;
     for (const Moment& moment : waiting) character->Write(moment, writer);
     waiting.clear();
@@ -163,16 +132,10 @@ void Retarget(const RetargetOptions& options) {
       character->Write(*moment, writer);
       continue;
     }
-    if (moment->face && range.Holds(*moment)) character->AddNeutral(*moment->face);
     waiting.push_back(*moment);
-    if (range.IsOver(*moment)) take_neutral();
+    if (taker.Add(*moment)) take_neutral();
   }
-  if (!has_neutral) {
-    if (range.last > frames) {
-      throw app::BadInput("--neutral " + options.neutral + ": the recording has " + std::to_string(frames) + " frames");
-    }
-    take_neutral();
-  }
+  if (!has_neutral) take_neutral();
   writer.Commit();
   std::fprintf(stderr, "facewire retarget: %zu frames, a face in %zu\n", frames, faces);
 }
@@ -181,15 +144,25 @@ void Retarget(const RetargetOptions& options) {
 
 void AddRetarget(CLI::App& facewire) {
   auto options = std::make_shared<RetargetOptions>();
-  CLI::App* command = facewire.add_subcommand("retarget", "Drive a character from a recording and write its poses");
-  command->add_option("INPUT", options->face.input, "A video, or recorded markers: .csv (NAME_x,NAME_y,NAME_z; cm), .trc or .c3d")
+  CLI::App* command =
+      facewire.add_subcommand("retarget", "Drive a character from a recording and write its poses");
+  command
+      ->add_option("INPUT", options->face.input,
+                   "A video, or recorded markers: .csv (NAME_x,NAME_y,NAME_z; cm), .trc or .c3d")
       ->required();
   command->add_option("--rig", options->rig, "The character")->required();
-  command->add_option("--profile", options->profile, "The trained mapping; for videos, the shipped one unless named");
-  command->add_option("--neutral", options->neutral,
-                      "A:B, the face at rest is the median of frames A to B-1; else of the first two seconds");
-  command->add_option("--out", options->out, "The file to write; .csv for CSV, JSON lines otherwise")->required();
-  command->add_option("--rigid", options->rigid, "Markers that only follow the head, to take its motion out; without, there is none in")
+  command->add_option("--profile", options->profile,
+                      "The trained mapping; for videos, the shipped one unless named");
+  command->add_option(
+      "--neutral", options->neutral,
+      "A:B, the face at rest is the median of frames A to B-1; else of the first two seconds");
+  command
+      ->add_option("--out", options->out, "The file to write; .csv for CSV, JSON lines otherwise")
+      ->required();
+  command
+      ->add_option(
+          "--rigid", options->rigid,
+          "Markers that only follow the head, to take its motion out; without, there is none in")
       ->delimiter(',');
   AddFaceOptions(*command, options->face);
   command->callback([options] { Retarget(*options); });

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
@@ -37,7 +38,8 @@ std::string Format(const char* format, double value) {
   return text.data();
 }
 
-std::vector<Figure> FiguresFor(const RecordingFigures& figures, const std::vector<std::string>& more) {
+std::vector<Figure> FiguresFor(const RecordingFigures& figures,
+                               const std::vector<std::string>& more) {
   std::vector<Figure> all{
       {std::to_string(figures.frames), "frames"},
       {Format("%.1f", figures.fps), "frames a second"},
@@ -57,28 +59,38 @@ std::vector<Figure> FiguresFor(const RecordingFigures& figures, const std::vecto
   return all;
 }
 
-// The poses that may be drawn: those that followed a face, of pictures that the video has in this order.
+// The poses that may be drawn: those that followed a face, of pictures that the video has in this
+// order.
 std::vector<RigPose> Drawable(const std::vector<RecordedPose>& recording, std::uint64_t first) {
+  // The service fades a face in; until then the character is between two poses.
+  constexpr std::chrono::milliseconds kFadeIn{500};
   std::vector<RigPose> poses;
+  Time found{};
+  bool tracking = false;
   for (const RecordedPose& recorded : recording) {
-    if (recorded.tracking && (first == 0 || recorded.pose.seq < first)) poses.push_back(recorded.pose);
+    if (recorded.tracking && !tracking) found = recorded.pose.captured;
+    tracking = recorded.tracking;
+    if (!tracking || recorded.pose.captured < found + kFadeIn) continue;
+    if (first == 0 || recorded.pose.seq < first) poses.push_back(recorded.pose);
   }
   if (poses.empty()) throw app::BadInput("the recording has no frame in which a face was followed");
   return poses;
 }
 
 cv::Mat PictureOf(const Frame& frame) {
-  if (frame.image.format != PixelFormat::kBgr24) throw app::Failure("the video's pictures are not BGR");
+  if (frame.image.format != PixelFormat::kBgr24)
+    throw app::Failure("the video's pictures are not BGR");
   const Plane& plane = frame.image.planes[0];
   // OpenCV has no read-only view; the copy is what is kept.
-  return cv::Mat(frame.image.height_px, frame.image.width_px, CV_8UC3, const_cast<std::uint8_t*>(plane.data),
+  return cv::Mat(frame.image.height_px, frame.image.width_px, CV_8UC3,
+                 const_cast<std::uint8_t*>(plane.data),
                  static_cast<std::size_t>(plane.stride_bytes))
       .clone();
 }
 
 // Plays the video, follows the face as the service did, and keeps the pictures of the moments.
-std::vector<Moment> TakeMoments(const std::vector<RigPose>& poses, const std::vector<Pick>& picks, double start_s,
-                                FaceReader& reader) {
+std::vector<Moment> TakeMoments(const std::vector<RigPose>& poses, const std::vector<Pick>& picks,
+                                double start_s, FaceReader& reader) {
   std::vector<Moment> moments;
   for (auto pick = picks.begin(); pick != picks.end();) {
     const auto frame = reader.Next();
@@ -89,7 +101,8 @@ std::vector<Moment> TakeMoments(const std::vector<RigPose>& poses, const std::ve
     Moment moment;
     moment.caption = pick->caption;
     moment.frame = pose.seq;
-    moment.time_s = std::chrono::duration<double>(pose.captured.time_since_epoch()).count() - start_s;
+    moment.time_s =
+        std::chrono::duration<double>(pose.captured.time_since_epoch()).count() - start_s;
     moment.picture = PictureOf(*frame);
     if (face) moment.landmarks = *face;
     moment.pose = pose;
@@ -97,8 +110,9 @@ std::vector<Moment> TakeMoments(const std::vector<RigPose>& poses, const std::ve
     ++pick;
   }
   if (moments.size() < picks.size()) {
-    throw app::BadInput("the video ends before frame " + std::to_string(poses[picks[moments.size()].index].seq) +
-                        " of the recording; --first N says how many frames the recording shows of it");
+    throw app::BadInput(
+        "the video ends before frame " + std::to_string(poses[picks[moments.size()].index].seq) +
+        " of the recording; --first N says how many frames the recording shows of it");
   }
   return moments;
 }
@@ -114,13 +128,14 @@ void DrawSheetFile(const SheetOptions& options) {
   const double start_s =
       std::chrono::duration<double>(recording.front().pose.captured.time_since_epoch()).count();
   const std::vector<Moment> moments = TakeMoments(poses, picks, start_s, reader);
-  const cv::Mat sheet =
-      DrawSheet("what the camera saw, and what the character was told over the wire", figures, rig, moments);
+  const cv::Mat sheet = DrawSheet(
+      "what the camera saw, and what the character was told over the wire", figures, rig, moments);
   std::vector<unsigned char> png;
   if (!cv::imencode(".png", sheet, png)) throw app::Failure("encoding the picture failed");
   out.Write({reinterpret_cast<const char*>(png.data()), png.size()});
   out.Commit();
-  for (const Figure& figure : figures) std::printf("  %-18s %s\n", figure.label.c_str(), figure.value.c_str());
+  for (const Figure& figure : figures)
+    std::printf("  %-18s %s\n", figure.label.c_str(), figure.value.c_str());
 }
 
 }  // namespace
@@ -129,13 +144,20 @@ void AddSheet(CLI::App& facewire) {
   auto options = std::make_shared<SheetOptions>();
   CLI::App* command = facewire.add_subcommand(
       "sheet", "Draw a contact sheet: moments of a video beside what the character was told");
-  command->add_option("RECORDING", options->recording, "What `facewire monitor --csv` wrote of the service's line")->required();
+  command
+      ->add_option("RECORDING", options->recording,
+                   "What `facewire monitor --csv` wrote of the service's line")
+      ->required();
   command->add_option("--video", options->face.input, "The video that the service saw")->required();
   command->add_option("--rig", options->rig, "The rig that the service drove")->required();
   command->add_option("--out", options->out, "The PNG to write")->required();
-  command->add_option("--moments", options->moments, "Rows of the sheet, at most")->check(CLI::Range(1, 20))->capture_default_str();
-  command->add_option("--first", options->first, "Only look at so many frames: where a looped video turned round");
-  command->add_option("--figure", options->figures, "LABEL=VALUE: one more figure for the sheet's head; may be repeated");
+  command->add_option("--moments", options->moments, "Rows of the sheet, at most")
+      ->check(CLI::Range(1, 20))
+      ->capture_default_str();
+  command->add_option("--first", options->first,
+                      "Only look at so many frames: where a looped video turned round");
+  command->add_option("--figure", options->figures,
+                      "LABEL=VALUE: one more figure for the sheet's head; may be repeated");
   AddFaceOptions(*command, options->face);
   command->callback([options] { DrawSheetFile(*options); });
 }

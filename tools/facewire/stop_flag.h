@@ -5,8 +5,8 @@
 
 namespace facewire::tools {
 
-// For a command that a person ends with Ctrl-C and that then finishes its work, such as a recording from
-// a live camera. While one exists, SIGINT and SIGTERM only set it. One at a time in a process.
+// For a command that a person ends with Ctrl-C and that then finishes its work, such as a recording
+// from a live camera. While one exists, SIGINT and SIGTERM only set it. One at a time in a process.
 class StopFlag {
  public:
   StopFlag() noexcept {

@@ -64,7 +64,6 @@ void Track(const TrackOptions& options) {
     auto face = reader.Track();
     if (filter && face) {
       face = filter->Update(*face);
-    
     }
     if (filter && !face) filter->Reset();
     ++frames;
@@ -79,12 +78,16 @@ void Track(const TrackOptions& options) {
 
 void AddTrack(CLI::App& facewire) {
   auto options = std::make_shared<TrackOptions>();
-  CLI::App* command = facewire.add_subcommand("track", "Follow a face and write its landmarks, one JSON line a frame");
-  command->add_option("INPUT", options->face.input, "A video file, v4l2:/dev/videoN or libcamera:N; Ctrl-C ends a camera's take")
+  CLI::App* command = facewire.add_subcommand(
+      "track", "Follow a face and write its landmarks, one JSON line a frame");
+  command
+      ->add_option("INPUT", options->face.input,
+                   "A video file, v4l2:/dev/videoN or libcamera:N; Ctrl-C ends a camera's take")
       ->required();
   command->add_option("--out", options->out, "The JSON lines file to write")->required();
   AddFaceOptions(*command, options->face);
-  command->add_flag("--filtered", options->filtered, "Smooth the landmarks and drop failed tracking, as the service does");
+  command->add_flag("--filtered", options->filtered,
+                    "Smooth the landmarks and drop failed tracking, as the service does");
   command->callback([options] { Track(*options); });
 }
 

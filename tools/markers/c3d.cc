@@ -13,8 +13,8 @@ namespace facewire::tools::markers {
 namespace {
 
 constexpr std::size_t kBlock = 512;
-constexpr std::uint8_t kKey = 0x50;        // second byte of every C3D file
-constexpr std::uint8_t kIntel = 84;        // little-endian, IEEE reals
+constexpr std::uint8_t kKey = 0x50;         // second byte of every C3D file
+constexpr std::uint8_t kIntel = 84;         // little-endian, IEEE reals
 constexpr std::size_t kManyFrames = 65535;  // what a 16-bit frame number can say
 
 // Little-endian reads that never leave the file.
@@ -24,7 +24,9 @@ class Bytes {
 
   std::size_t size() const { return contents_.size(); }
   const std::string& name() const { return name_; }
-  [[noreturn]] void Refuse(const std::string& what) const { throw app::BadInput(name_ + ": " + what); }
+  [[noreturn]] void Refuse(const std::string& what) const {
+    throw app::BadInput(name_ + ": " + what);
+  }
 
   std::string Text(std::size_t at, std::size_t count) const {
     Check(at, count);
@@ -42,7 +44,8 @@ class Bytes {
  private:
   void Check(std::size_t at, std::size_t count) const {
     if (at > contents_.size() || count > contents_.size() - at) {
-      Refuse("cut short: byte " + std::to_string(at + count) + " is needed, it has " + std::to_string(contents_.size()));
+      Refuse("cut short: byte " + std::to_string(at + count) + " is needed, it has " +
+             std::to_string(contents_.size()));
     }
   }
 
@@ -53,7 +56,7 @@ class Bytes {
 struct Parameter {
   int type = 0;  // -1 characters, 1 bytes, 2 integers, 4 reals
   std::vector<std::size_t> dimensions;
-  std::size_t data = 0;  // position in the file
+  std::size_t data = 0;   // position in the file
   std::size_t count = 1;  // product of the dimensions
 };
 
@@ -78,7 +81,8 @@ Parameters ReadParameters(const Bytes& file, std::size_t section) {
   std::vector<std::pair<int, std::pair<std::string, Parameter>>> found;
   std::size_t at = section + 4;
   for (;;) {
-    const std::size_t letters = static_cast<std::size_t>(std::abs(file.Get<std::int8_t>(at)));  // < 0: locked
+    const std::size_t letters =
+        static_cast<std::size_t>(std::abs(file.Get<std::int8_t>(at)));  // < 0: locked
     const int group = file.Get<std::int8_t>(at + 1);
     if (letters == 0 || group == 0) break;
     const std::string name = file.Text(at + 2, letters);
@@ -93,11 +97,13 @@ Parameters ReadParameters(const Bytes& file, std::size_t section) {
     at = link + step;
   }
   Parameters parameters;
-  for (const auto& [group, entry] : found) parameters[groups[group] + ":" + entry.first] = entry.second;
+  for (const auto& [group, entry] : found)
+    parameters[groups[group] + ":" + entry.first] = entry.second;
   return parameters;
 }
 
-double NumberOf(const Bytes& file, const Parameters& parameters, const std::string& key, double otherwise) {
+double NumberOf(const Bytes& file, const Parameters& parameters, const std::string& key,
+                double otherwise) {
   const auto found = parameters.find(key);
   if (found == parameters.end()) return otherwise;
   if (found->second.type == 4) return static_cast<double>(file.Get<float>(found->second.data));
@@ -106,10 +112,12 @@ double NumberOf(const Bytes& file, const Parameters& parameters, const std::stri
 }
 
 // A parameter of texts: its first dimension is the length of one.
-std::vector<std::string> TextsOf(const Bytes& file, const Parameters& parameters, const std::string& key) {
+std::vector<std::string> TextsOf(const Bytes& file, const Parameters& parameters,
+                                 const std::string& key) {
   std::vector<std::string> texts;
   const auto found = parameters.find(key);
-  if (found == parameters.end() || found->second.type != -1 || found->second.dimensions.empty()) return texts;
+  if (found == parameters.end() || found->second.type != -1 || found->second.dimensions.empty())
+    return texts;
   const std::size_t length = found->second.dimensions[0];
   for (std::size_t i = 0; length > 0 && i < found->second.count / length; ++i) {
     texts.emplace_back(Trim(file.Text(found->second.data + i * length, length)));
@@ -117,7 +125,8 @@ std::vector<std::string> TextsOf(const Bytes& file, const Parameters& parameters
   return texts;
 }
 
-std::vector<std::string> NamesOf(const Bytes& file, const Parameters& parameters, std::size_t points) {
+std::vector<std::string> NamesOf(const Bytes& file, const Parameters& parameters,
+                                 std::size_t points) {
   std::vector<std::string> names = TextsOf(file, parameters, "POINT:LABELS");
   // One parameter holds 255 names; the rest are in LABELS2, LABELS3 ...
   for (int part = 2; names.size() < points; ++part) {
@@ -126,7 +135,8 @@ std::vector<std::string> NamesOf(const Bytes& file, const Parameters& parameters
     names.insert(names.end(), more.begin(), more.end());
   }
   if (names.size() < points) {
-    file.Refuse("names for " + std::to_string(names.size()) + " of its " + std::to_string(points) + " points");
+    file.Refuse("names for " + std::to_string(names.size()) + " of its " + std::to_string(points) +
+                " points");
   }
   names.resize(points);
   return names;
@@ -167,8 +177,8 @@ Take ReadC3d(const std::string& contents, const std::string& name) {
   if (last == kManyFrames && data < file.size()) frames = (file.size() - data) / frame_bytes;
 
   if (data > file.size() || (file.size() - data) / frame_bytes < frames) {
-    file.Refuse("cut short: " + std::to_string(frames) + " frames of " + std::to_string(frame_bytes) +
-                " bytes are announced");
+    file.Refuse("cut short: " + std::to_string(frames) + " frames of " +
+                std::to_string(frame_bytes) + " bytes are announced");
   }
 
   for (std::size_t f = 0; f < frames; ++f) {
@@ -177,7 +187,8 @@ Take ReadC3d(const std::string& contents, const std::string& name) {
       const std::size_t at = data + f * frame_bytes + m * 4 * word;
       double xyzw[4];
       for (std::size_t i = 0; i < 4; ++i) {
-        xyzw[i] = reals ? static_cast<double>(file.Get<float>(at + i * word)) : file.Get<std::int16_t>(at + i * word);
+        xyzw[i] = reals ? static_cast<double>(file.Get<float>(at + i * word))
+                        : file.Get<std::int16_t>(at + i * word);
       }
       // The fourth number is the residual: negative where the point was not seen.
       if (xyzw[3] < 0) {

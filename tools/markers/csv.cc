@@ -24,7 +24,8 @@ Columns ReadHeader(const std::vector<std::string_view>& header, const std::strin
     if (header[i] == "time" || header[i] == "time_s") columns.time = static_cast<std::ptrdiff_t>(i);
     if (!header[i].ends_with("_x")) continue;
     const std::string marker(header[i].substr(0, header[i].size() - 2));
-    if (i + 2 >= header.size() || header[i + 1] != marker + "_y" || header[i + 2] != marker + "_z") {
+    if (i + 2 >= header.size() || header[i + 1] != marker + "_y" ||
+        header[i + 2] != marker + "_z") {
       Refuse(name, 1, marker + "_x is not followed by " + marker + "_y and " + marker + "_z");
     }
     columns.names.push_back(marker);
@@ -48,7 +49,9 @@ Take ReadCsv(const std::string& contents, const std::string& name) {
     if (Trim(lines[i]).empty()) continue;
     const std::vector<std::string_view> fields = Fields(lines[i], ',');
     if (fields.size() != header.size()) {
-      Refuse(name, i + 1, std::to_string(fields.size()) + " fields; the header has " + std::to_string(header.size()));
+      Refuse(name, i + 1,
+             std::to_string(fields.size()) + " fields; the header has " +
+                 std::to_string(header.size()));
     }
     const auto number = [&](std::size_t column) {
       const auto value = NumberOrGap(fields[column]);

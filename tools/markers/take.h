@@ -12,8 +12,8 @@ namespace facewire::tools::markers {
 struct Take {
   std::vector<std::string> names;
   double rate_hz = 0;  // 0 = the file does not say
-  // frames[f][m] is marker m in frame f, in cm and in the axes of the file; x, y and z are all NaN where
-  // the marker was not seen.
+  // frames[f][m] is marker m in frame f, in cm and in the axes of the file; x, y and z are all NaN
+  // where the marker was not seen.
   std::vector<std::vector<Point3>> frames;
 };
 
@@ -22,16 +22,20 @@ struct Take {
 Take ReadTake(const std::string& path);
 
 // The readers for each format, of a file's whole contents; `name` is for messages.
-//   csv: a header with NAME_x,NAME_y,NAME_z (in this order, columns of other names are skipped), then one
-//        line a frame, in cm; an empty field or "nan" is a gap. A column "time" or "time_s" gives the rate.
+//   csv: a header with NAME_x,NAME_y,NAME_z (in this order, columns of other names are skipped),
+//   then one
+//        line a frame, in cm; an empty field or "nan" is a gap. A column "time" or "time_s" gives
+//        the rate.
 //   trc: Motion Analysis text, tab-separated; its unit is converted.
-//   c3d: the binary format of c3d.org with the number format of Intel processors, integer or real; its
+//   c3d: the binary format of c3d.org with the number format of Intel processors, integer or real;
+//   its
 //        unit is converted, analogue channels are skipped.
 Take ReadCsv(const std::string& contents, const std::string& name);
 Take ReadTrc(const std::string& contents, const std::string& name);
 Take ReadC3d(const std::string& contents, const std::string& name);
 
-// Centimetres in one of a unit that a file names ("mm", "cm", "m", "in"); throws BadInput for others.
+// Centimetres in one of a unit that a file names ("mm", "cm", "m", "in"); throws BadInput for
+// others.
 double CentimetresPer(const std::string& unit, const std::string& name);
 
 }  // namespace facewire::tools::markers

@@ -38,7 +38,8 @@ std::vector<std::string_view> Fields(std::string_view line, char separator) {
 }
 
 std::optional<double> NumberOrGap(std::string_view field) {
-  if (field.empty() || field == "nan" || field == "NaN") return std::numeric_limits<double>::quiet_NaN();
+  if (field.empty() || field == "nan" || field == "NaN")
+    return std::numeric_limits<double>::quiet_NaN();
   if (field.starts_with('+')) field.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);

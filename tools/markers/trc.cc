@@ -15,16 +15,17 @@ constexpr std::size_t kFirstMarkerField = 2;  // after the frame number and the 
 }
 
 // The value below the name `key` in the file's table of facts (lines 2 and 3).
-std::string Fact(const std::vector<std::string_view>& keys, const std::vector<std::string_view>& values,
-                 std::string_view key, const std::string& name) {
+std::string Fact(const std::vector<std::string_view>& keys,
+                 const std::vector<std::string_view>& values, std::string_view key,
+                 const std::string& name) {
   for (std::size_t i = 0; i < keys.size() && i < values.size(); ++i) {
     if (keys[i] == key) return std::string(values[i]);
   }
   Refuse(name, 2, "no " + std::string(key) + "; a TRC file has it here");
 }
 
-std::vector<Point3> ReadFrame(const std::vector<std::string_view>& fields, std::size_t markers, double cm,
-                              const std::string& name, std::size_t line) {
+std::vector<Point3> ReadFrame(const std::vector<std::string_view>& fields, std::size_t markers,
+                              double cm, const std::string& name, std::size_t line) {
   std::vector<Point3> frame(markers, Point3{NAN, NAN, NAN});
   for (std::size_t m = 0; m < markers; ++m) {
     double xyz[3] = {NAN, NAN, NAN};
@@ -64,7 +65,9 @@ Take ReadTrc(const std::string& contents, const std::string& name) {
     if (Trim(lines[i]).empty()) continue;
     const auto fields = Fields(lines[i], '\t');
     if (fields.size() > kFirstMarkerField + 3 * take.names.size() + 1) {
-      Refuse(name, i + 1, std::to_string(fields.size()) + " fields for " + std::to_string(take.names.size()) + " markers");
+      Refuse(name, i + 1,
+             std::to_string(fields.size()) + " fields for " + std::to_string(take.names.size()) +
+                 " markers");
     }
     take.frames.push_back(ReadFrame(fields, take.names.size(), cm, name, i + 1));
   }

@@ -24,7 +24,9 @@ std::vector<cv::Point> Fixed(std::span<const cv::Point2d> points) {
   return fixed;
 }
 
-int Thickness(double width_px) { return std::max(1, static_cast<int>(std::lround(width_px * kScale))); }
+int Thickness(double width_px) {
+  return std::max(1, static_cast<int>(std::lround(width_px * kScale)));
+}
 
 int FontThickness(double size_px, bool bold) {
   return Thickness(std::max(0.75, size_px * (bold ? 0.17 : 0.11)));
@@ -36,12 +38,14 @@ Canvas::Canvas(int width_px, int height_px, const cv::Scalar& background)
     : image_(height_px * kScale, width_px * kScale, CV_8UC3, background) {}
 
 void Canvas::Fill(std::span<const cv::Point2d> outline, const cv::Scalar& colour) {
-  cv::fillPoly(image_, std::vector<std::vector<cv::Point>>{Fixed(outline)}, colour, cv::LINE_AA, kShift);
+  cv::fillPoly(image_, std::vector<std::vector<cv::Point>>{Fixed(outline)}, colour, cv::LINE_AA,
+               kShift);
 }
 
-void Canvas::Stroke(std::span<const cv::Point2d> line, const cv::Scalar& colour, double width_px, bool closed) {
-  cv::polylines(image_, std::vector<std::vector<cv::Point>>{Fixed(line)}, closed, colour, Thickness(width_px),
-                cv::LINE_AA, kShift);
+void Canvas::Stroke(std::span<const cv::Point2d> line, const cv::Scalar& colour, double width_px,
+                    bool closed) {
+  cv::polylines(image_, std::vector<std::vector<cv::Point>>{Fixed(line)}, closed, colour,
+                Thickness(width_px), cv::LINE_AA, kShift);
 }
 
 void Canvas::Disc(cv::Point2d centre, double radius_px, const cv::Scalar& colour) {
@@ -71,8 +75,8 @@ double Canvas::TextWidth(const std::string& text, double size_px, bool bold) {
          static_cast<double>(kScale);
 }
 
-void Canvas::Text(const std::string& text, cv::Point2d at, double size_px, const cv::Scalar& colour, Align align,
-                  bool bold) {
+void Canvas::Text(const std::string& text, cv::Point2d at, double size_px, const cv::Scalar& colour,
+                  Align align, bool bold) {
   if (align != Align::kLeft) {
     at.x -= TextWidth(text, size_px, bold) * (align == Align::kCentre ? 0.5 : 1.0);
   }

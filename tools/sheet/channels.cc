@@ -6,8 +6,9 @@
 namespace facewire::tools {
 namespace {
 
-// What of the character a channel moves. Full is how far a channel goes, as a part of its range on that
-// side, where the character shows the full expression: bones have a reserve beyond what faces do.
+// What of the character a channel moves. Full is how far a channel goes, as a part of its range on
+// that side, where the character shows the full expression: bones have a reserve beyond what faces
+// do.
 struct Source {
   double CharacterPose::*field;
   std::string_view channel;
@@ -64,13 +65,15 @@ constexpr Source kHead[] = {
 // -1 .. 1: how far the value is from neutral, in parts of the range on its side.
 double Deflection(const Channel& channel, float value, double full) {
   const auto away = static_cast<double>(value - channel.neutral);
-  const auto range = static_cast<double>(away < 0 ? channel.neutral - channel.min : channel.max - channel.neutral);
+  const auto range =
+      static_cast<double>(away < 0 ? channel.neutral - channel.min : channel.max - channel.neutral);
   return range > 0 ? std::clamp(away / (range * full), -1.0, 1.0) : 0.0;
 }
 
 bool HasBoneFor(const Rig& rig, double CharacterPose::*field) {
-  return std::ranges::any_of(
-      kBones, [&](const Source& s) { return s.field == field && rig.FindChannel(s.channel).has_value(); });
+  return std::ranges::any_of(kBones, [&](const Source& s) {
+    return s.field == field && rig.FindChannel(s.channel).has_value();
+  });
 }
 
 }  // namespace
@@ -80,7 +83,8 @@ CharacterPose CharacterPoseOf(const Rig& rig, const RigPose& pose) {
   const auto add = [&](const Source& source) {
     const auto index = rig.FindChannel(source.channel);
     if (!index || *index >= pose.count) return;
-    character.*source.field += source.weight * Deflection(rig.channels[*index], pose.values[*index], source.full);
+    character.*source.field +=
+        source.weight * Deflection(rig.channels[*index], pose.values[*index], source.full);
   };
   for (const Source& source : kBones) add(source);
   for (const Source& source : kParameters) {
@@ -88,7 +92,8 @@ CharacterPose CharacterPoseOf(const Rig& rig, const RigPose& pose) {
   }
   for (const Source& source : kHead) {
     const auto index = rig.FindChannel(source.channel);
-    if (index && *index < pose.count) character.*source.field = static_cast<double>(pose.values[*index]);
+    if (index && *index < pose.count)
+      character.*source.field = static_cast<double>(pose.values[*index]);
   }
   return character;
 }

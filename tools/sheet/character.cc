@@ -19,12 +19,14 @@ const cv::Scalar kIris{150, 140, 30};
 const cv::Scalar kMouth{52, 36, 60};
 const cv::Scalar kLip{98, 102, 214};
 
-// A point of the head: x to the character's left, y up, z out of the face; the head is about 2 wide.
+// A point of the head: x to the character's left, y up, z out of the face; the head is about 2
+// wide.
 using Vec = cv::Vec3d;
 
 double Radians(double deg) { return deg * std::numbers::pi / 180; }
 
-// Turns points of the head as camera_R_head of core/face_pose.h does and brings them onto the picture.
+// Turns points of the head as camera_R_head of core/face_pose.h does and brings them onto the
+// picture.
 class View {
  public:
   View(const CharacterPose& pose, const cv::Rect2d& box)
@@ -33,9 +35,12 @@ class View {
     const double pitch = Radians(pose.pitch_deg);
     const double yaw = Radians(pose.yaw_deg);
     const double roll = Radians(pose.roll_deg);
-    const cv::Matx33d ry(std::cos(yaw), 0, std::sin(yaw), 0, 1, 0, -std::sin(yaw), 0, std::cos(yaw));
-    const cv::Matx33d rx(1, 0, 0, 0, std::cos(pitch), -std::sin(pitch), 0, std::sin(pitch), std::cos(pitch));
-    const cv::Matx33d rz(std::cos(roll), -std::sin(roll), 0, std::sin(roll), std::cos(roll), 0, 0, 0, 1);
+    const cv::Matx33d ry(std::cos(yaw), 0, std::sin(yaw), 0, 1, 0, -std::sin(yaw), 0,
+                         std::cos(yaw));
+    const cv::Matx33d rx(1, 0, 0, 0, std::cos(pitch), -std::sin(pitch), 0, std::sin(pitch),
+                         std::cos(pitch));
+    const cv::Matx33d rz(std::cos(roll), -std::sin(roll), 0, std::sin(roll), std::cos(roll), 0, 0,
+                         0, 1);
     rotation_ = ry * rx * rz;
     roll_ = rz;
   }
@@ -50,7 +55,9 @@ class View {
   cv::Point2d Stand(Vec p) const { return Flat(p); }
 
  private:
-  cv::Point2d Flat(Vec p) const { return {origin_.x + unit_px_ * p[0], origin_.y - unit_px_ * p[1]}; }
+  cv::Point2d Flat(Vec p) const {
+    return {origin_.x + unit_px_ * p[0], origin_.y - unit_px_ * p[1]};
+  }
 
   double unit_px_;
   cv::Point2d origin_;
@@ -69,25 +76,28 @@ std::vector<cv::Point2d> Bezier(cv::Point2d a, cv::Point2d b, cv::Point2d c, cv:
   return line;
 }
 
-// A rounded shape between ellipse (exponent 2) and box, from angle `from` to `to` (degrees, counter-clockwise).
+// A rounded shape between ellipse (exponent 2) and box, from angle `from` to `to` (degrees,
+// counter-clockwise).
 template <class Project>
-std::vector<cv::Point2d> Shell(Vec centre, double rx, double ry, double exponent, double from, double to,
-                               const Project& project) {
+std::vector<cv::Point2d> Shell(Vec centre, double rx, double ry, double exponent, double from,
+                               double to, const Project& project) {
   constexpr int kSteps = 64;
   std::vector<cv::Point2d> line;
   for (int i = 0; i <= kSteps; ++i) {
     const double angle = Radians(from + (to - from) * i / kSteps);
     const double c = std::cos(angle);
     const double s = std::sin(angle);
-    line.push_back(project(centre + Vec{std::copysign(rx * std::pow(std::abs(c), 2 / exponent), c),
-                                        std::copysign(ry * std::pow(std::abs(s), 2 / exponent), s), 0}));
+    line.push_back(
+        project(centre + Vec{std::copysign(rx * std::pow(std::abs(c), 2 / exponent), c),
+                             std::copysign(ry * std::pow(std::abs(s), 2 / exponent), s), 0}));
   }
   return line;
 }
 
 void DrawStand(const View& view, Canvas& canvas) {
   const auto stand = [&](Vec p) { return view.Stand(p); };
-  const std::array neck{stand({-0.30, -0.8, 0}), stand({0.30, -0.8, 0}), stand({0.36, -1.5, 0}), stand({-0.36, -1.5, 0})};
+  const std::array neck{stand({-0.30, -0.8, 0}), stand({0.30, -0.8, 0}), stand({0.36, -1.5, 0}),
+                        stand({-0.36, -1.5, 0})};
   canvas.Fill(neck, kMetal);
   for (const double y : {-1.22, -1.34, -1.46}) {
     const std::array ring{stand({-0.42, y, 0}), stand({0.42, y, 0})};
@@ -125,14 +135,16 @@ void DrawMouth(const CharacterPose& pose, const View& view, Canvas& canvas) {
   constexpr double kZ = 0.8;
   const double drop = 0.40 * pose.jaw;
   const double middle = -0.44;
-  const Vec left{0.36 + 0.13 * pose.corner_left_x, middle - 0.4 * drop + 0.16 * pose.corner_left_y, kZ};
-  const Vec right{-0.36 - 0.13 * pose.corner_right_x, middle - 0.4 * drop + 0.16 * pose.corner_right_y, kZ};
+  const Vec left{0.36 + 0.13 * pose.corner_left_x, middle - 0.4 * drop + 0.16 * pose.corner_left_y,
+                 kZ};
+  const Vec right{-0.36 - 0.13 * pose.corner_right_x,
+                  middle - 0.4 * drop + 0.16 * pose.corner_right_y, kZ};
   const double sag = -0.05 * (pose.corner_left_y + pose.corner_right_y);
   const double upper = middle + 0.05 + sag;
   const double lower = middle - 0.05 - drop * 1.25 + sag;
   const auto curve = [&](double y) {
-    return Bezier(view.Face(right), view.Face({right[0] * 0.45, y, kZ}), view.Face({left[0] * 0.45, y, kZ}),
-                  view.Face(left));
+    return Bezier(view.Face(right), view.Face({right[0] * 0.45, y, kZ}),
+                  view.Face({left[0] * 0.45, y, kZ}), view.Face(left));
   };
   const auto upper_lip = curve(upper);
   auto lower_lip = curve(lower);
@@ -161,7 +173,9 @@ void DrawEye(const CharacterPose& pose, double side, const View& view, Canvas& c
   const double shut = std::clamp(side < 0 ? pose.lid_right : pose.lid_left, -kRestingLid, 1.0);
   // The lids meet in the lower half of the eye: the upper one does most of the way.
   const double meeting = 0.80;
-  const auto angle_deg = [](double cover) { return std::asin(1 - 2 * cover) * 180 / std::numbers::pi; };
+  const auto angle_deg = [](double cover) {
+    return std::asin(1 - 2 * cover) * 180 / std::numbers::pi;
+  };
   const double upper_deg = angle_deg(kRestingLid + (meeting - kRestingLid) * shut);
   const auto upper = Shell(centre, kRadius, kRadius, 2, upper_deg, 180 - upper_deg, face);
   canvas.Fill(upper, kLid);
@@ -178,7 +192,8 @@ void DrawBrow(const CharacterPose& pose, double side, const View& view, Canvas& 
   constexpr double kZ = 0.72;
   const double raise = side < 0 ? pose.brow_right : pose.brow_left;
   const double y = 0.60 + (raise > 0 ? 0.17 : 0.08) * raise;
-  // Lowering pulls the inner end down, raising lifts the arch: what reads as cross and as surprised.
+  // Lowering pulls the inner end down, raising lifts the arch: what reads as cross and as
+  // surprised.
   const double inner = y + 0.12 * std::min(raise, 0.0);
   const double arch = 0.09 + 0.06 * std::max(raise, 0.0);
   const auto brow =

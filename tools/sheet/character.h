@@ -7,8 +7,8 @@
 
 namespace facewire::tools {
 
-// What a schematic head shows of a rig's pose. Left and right are the character's own, the picture is
-// not mirrored: the left eye is on the right. 0 is neutral throughout.
+// What a schematic head shows of a rig's pose. Left and right are the character's own, the picture
+// is not mirrored: the left eye is on the right. 0 is neutral throughout.
 struct CharacterPose {
   double jaw = 0;                                // 0 closed .. 1 as far open as the rig allows
   double lid_left = 0, lid_right = 0;            // 0 open .. 1 shut
@@ -19,7 +19,8 @@ struct CharacterPose {
   double pitch_deg = 0, yaw_deg = 0, roll_deg = 0;  // of the head, as HeadAngles
 };
 
-// Reads a pose by the names and ranges of the rig's channels. What a rig has no channel for stays neutral.
+// Reads a pose by the names and ranges of the rig's channels. What a rig has no channel for stays
+// neutral.
 CharacterPose CharacterPoseOf(const Rig& rig, const RigPose& pose);
 
 // Draws the head into the box, as large as fits.

@@ -16,8 +16,10 @@ constexpr std::array kOuterLips{61,  146, 91,  181, 84,  17, 314, 405, 321, 375,
                                 291, 409, 270, 269, 267, 0,  37,  39,  40,  185};
 constexpr std::array kInnerLips{78,  95,  88,  178, 87,  14, 317, 402, 318, 324,
                                 308, 415, 310, 311, 312, 13, 82,  81,  80,  191};
-constexpr std::array kRightEye{33, 7, 163, 144, 145, 153, 154, 155, 133, 173, 157, 158, 159, 160, 161, 246};
-constexpr std::array kLeftEye{263, 249, 390, 373, 374, 380, 381, 382, 362, 398, 384, 385, 386, 387, 388, 466};
+constexpr std::array kRightEye{33,  7,   163, 144, 145, 153, 154, 155,
+                               133, 173, 157, 158, 159, 160, 161, 246};
+constexpr std::array kLeftEye{263, 249, 390, 373, 374, 380, 381, 382,
+                              362, 398, 384, 385, 386, 387, 388, 466};
 constexpr std::array kRightBrow{46, 53, 52, 65, 55, 107, 66, 105, 63, 70};
 constexpr std::array kLeftBrow{276, 283, 282, 295, 285, 336, 296, 334, 293, 300};
 // The centre of an iris, and the first of the four points around it.
@@ -27,7 +29,8 @@ const cv::Scalar kContour{236, 255, 214};
 
 }  // namespace
 
-void DrawLandmarks(const Landmarks& landmarks, cv::Point2d origin, cv::Size2d zoom, Canvas& canvas) {
+void DrawLandmarks(const Landmarks& landmarks, cv::Point2d origin, cv::Size2d zoom,
+                   Canvas& canvas) {
   if (landmarks.count < kMeshLandmarks) return;
   const auto at = [&](std::size_t i) {
     const Point3& p = landmarks.points_px[i];

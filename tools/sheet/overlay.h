@@ -6,9 +6,9 @@
 
 namespace facewire::tools {
 
-// Draws landmarks over the picture they belong to, whose top-left corner is at `origin` and whose pixels
-// are `zoom` wide and high on the canvas: every point as a dot, the outlines of face, eyes, brows and
-// lips, and the irises where the network gives them.
+// Draws landmarks over the picture they belong to, whose top-left corner is at `origin` and whose
+// pixels are `zoom` wide and high on the canvas: every point as a dot, the outlines of face, eyes,
+// brows and lips, and the irises where the network gives them.
 void DrawLandmarks(const Landmarks& landmarks, cv::Point2d origin, cv::Size2d zoom, Canvas& canvas);
 
 }  // namespace facewire::tools

@@ -21,10 +21,12 @@ constexpr double kHeadShown_deg = 30;  // that turns the head by kShown of a ful
 constexpr std::array<Interest, 9> kInterests{{
     {"eyes shut", [](const CharacterPose& p) { return std::min(p.lid_left, p.lid_right); }},
     {"mouth open", [](const CharacterPose& p) { return p.jaw; }},
-    {"smile", [](const CharacterPose& p) { return (p.corner_left_y + p.corner_right_y) / 2 - p.jaw; }},
+    {"smile",
+     [](const CharacterPose& p) { return (p.corner_left_y + p.corner_right_y) / 2 - p.jaw; }},
     {"head turned", [](const CharacterPose& p) { return std::abs(p.yaw_deg) / kHeadShown_deg; }},
     {"brows up", [](const CharacterPose& p) { return (p.brow_left + p.brow_right) / 2; }},
-    {"lips pursed", [](const CharacterPose& p) { return -(p.corner_left_x + p.corner_right_x) / 2; }},
+    {"lips pursed",
+     [](const CharacterPose& p) { return -(p.corner_left_x + p.corner_right_x) / 2; }},
     {"head tilted", [](const CharacterPose& p) { return std::abs(p.roll_deg) / kHeadShown_deg; }},
     {"brows down", [](const CharacterPose& p) { return -(p.brow_left + p.brow_right) / 2; }},
     {"head nods", [](const CharacterPose& p) { return std::abs(p.pitch_deg) / kHeadShown_deg; }},
@@ -32,10 +34,10 @@ constexpr std::array<Interest, 9> kInterests{{
 
 double Restlessness(const CharacterPose& p) {
   const auto square = [](double v) { return v * v; };
-  return square(p.jaw) + square(p.lid_left) + square(p.lid_right) + square(p.brow_left) + square(p.brow_right) +
-         square(p.corner_left_x) + square(p.corner_right_x) + square(p.corner_left_y) +
-         square(p.corner_right_y) + square(p.yaw_deg / kHeadShown_deg) + square(p.pitch_deg / kHeadShown_deg) +
-         square(p.roll_deg / kHeadShown_deg);
+  return square(p.jaw) + square(p.lid_left) + square(p.lid_right) + square(p.brow_left) +
+         square(p.brow_right) + square(p.corner_left_x) + square(p.corner_right_x) +
+         square(p.corner_left_y) + square(p.corner_right_y) + square(p.yaw_deg / kHeadShown_deg) +
+         square(p.pitch_deg / kHeadShown_deg) + square(p.roll_deg / kHeadShown_deg);
 }
 
 }  // namespace
@@ -48,14 +50,16 @@ std::vector<Pick> PickMoments(const Rig& rig, std::span<const RigPose> poses, st
   std::vector<Pick> picks;
   const auto is_free = [&](std::size_t index) {
     return std::ranges::none_of(picks, [&](const Pick& pick) {
-      return std::chrono::abs(poses[pick.index].captured - poses[index].captured) < std::chrono::milliseconds(500);
+      return std::chrono::abs(poses[pick.index].captured - poses[index].captured) <
+             std::chrono::milliseconds(500);
     });
   };
   // The best free pose by an amount, taken when the amount is at least `least`.
   const auto take = [&](const char* caption, double least, const auto& amount) {
     std::size_t best = poses.size();
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      if (is_free(i) && (best == poses.size() || amount(characters[i]) > amount(characters[best]))) best = i;
+      if (is_free(i) && (best == poses.size() || amount(characters[i]) > amount(characters[best])))
+        best = i;
     }
     if (best < poses.size() && amount(characters[best]) >= least) picks.push_back({best, caption});
   };

@@ -16,9 +16,10 @@ struct Pick {
   std::string caption;    // "eyes shut"
 };
 
-// The most telling poses of a recording, at most `count`, in the order of the recording: the calmest one,
-// and the extremes of what the character does (eyes shut, mouth open, head turned ...), at least half a
-// second from each other by their capture times. Movements that hardly occur are left out.
+// The most telling poses of a recording, at most `count`, in the order of the recording: the
+// calmest one, and the extremes of what the character does (eyes shut, mouth open, head turned
+// ...), at least half a second from each other by their capture times. Movements that hardly occur
+// are left out.
 std::vector<Pick> PickMoments(const Rig& rig, std::span<const RigPose> poses, std::size_t count);
 
 }  // namespace facewire::tools

@@ -27,8 +27,8 @@ constexpr double kBarsTop = 72;
 constexpr double kBarPitch = 22;
 constexpr std::size_t kBarRows = 12;
 constexpr double kBarColumns[] = {kBarsX, kBarsX + 394};
-constexpr double kLabelWidth = 142;
-constexpr double kTrackWidth = 138;
+constexpr double kLabelWidth = 156;
+constexpr double kTrackWidth = 128;
 constexpr double kSmall = 8.5;  // height of a capital in running text
 
 std::string Number(const char* format, double value) {
@@ -43,7 +43,8 @@ std::string ValueText(const Channel& channel, float value) {
   return Number("%.2f", static_cast<double>(value));
 }
 
-// The channels of one kind (bones' or parameters) that move most in the moments, in the rig's order.
+// The channels of one kind (bones' or parameters) that move most in the moments, in the rig's
+// order.
 std::vector<std::size_t> Liveliest(const Rig& rig, std::span<const Moment> moments, bool bones) {
   std::vector<std::pair<double, std::size_t>> by_motion;
   for (std::size_t i = 0; i < rig.channels.size(); ++i) {
@@ -52,7 +53,8 @@ std::vector<std::size_t> Liveliest(const Rig& rig, std::span<const Moment> momen
     double motion = 0;
     for (const Moment& moment : moments) {
       const double away = static_cast<double>(moment.pose.values[i] - channel.neutral);
-      motion = std::max(motion, std::abs(away) / std::max(1e-6, static_cast<double>(channel.max - channel.min)));
+      motion = std::max(
+          motion, std::abs(away) / std::max(1e-6, static_cast<double>(channel.max - channel.min)));
     }
     by_motion.emplace_back(-motion, i);
   }
@@ -65,7 +67,8 @@ std::vector<std::size_t> Liveliest(const Rig& rig, std::span<const Moment> momen
 }
 
 // A bar from the neutral value to the present one, on a track that spans the channel's range.
-void DrawBar(const Channel& channel, float value, cv::Point2d at, const cv::Scalar& colour, Canvas& canvas) {
+void DrawBar(const Channel& channel, float value, cv::Point2d at, const cv::Scalar& colour,
+             Canvas& canvas) {
   const double span = std::max(1e-6, static_cast<double>(channel.max - channel.min));
   const double track = at.x + kLabelWidth;
   const auto x_of = [&](float v) {
@@ -78,12 +81,12 @@ void DrawBar(const Channel& channel, float value, cv::Point2d at, const cv::Scal
   const double to = std::max(x_of(value), x_of(channel.neutral));
   canvas.Box({from, at.y - kThick / 2, std::max(2.0, to - from), kThick}, 2, colour);
   canvas.Box({x_of(channel.neutral) - 1, at.y - kThick, 2, 2 * kThick}, 1, palette::kMuted);
-  canvas.Text(ValueText(channel, value), {track + kTrackWidth + 84, at.y + kSmall / 2}, kSmall, palette::kInk,
-              Align::kRight);
+  canvas.Text(ValueText(channel, value), {track + kTrackWidth + 80, at.y + kSmall / 2}, kSmall,
+              palette::kInk, Align::kRight);
 }
 
-void DrawBars(const Rig& rig, const Moment& moment, std::span<const std::size_t> channels, const char* heading,
-              cv::Point2d at, const cv::Scalar& colour, Canvas& canvas) {
+void DrawBars(const Rig& rig, const Moment& moment, std::span<const std::size_t> channels,
+              const char* heading, cv::Point2d at, const cv::Scalar& colour, Canvas& canvas) {
   canvas.Text(heading, {at.x, at.y - 20}, kSmall, palette::kMuted);
   for (const std::size_t index : channels) {
     DrawBar(rig.channels[index], moment.pose.values[index], at, colour, canvas);
@@ -91,8 +94,8 @@ void DrawBars(const Rig& rig, const Moment& moment, std::span<const std::size_t>
   }
 }
 
-// The part of a picture that a window of kPictureWidth x kPictureHeight shows: the face with some air
-// around it, or, without a face, the middle.
+// The part of a picture that a window of kPictureWidth x kPictureHeight shows: the face with some
+// air around it, or, without a face, the middle.
 cv::Rect View(const cv::Mat& picture, const Landmarks& landmarks) {
   constexpr double kAir = 1.5;  // height of the view in heights of the face
   constexpr double kShape = kPictureWidth / kPictureHeight;
@@ -112,8 +115,9 @@ cv::Rect View(const cv::Mat& picture, const Landmarks& landmarks) {
           cv::Size(cv::Size2d(std::floor(width), std::floor(height)))};
 }
 
-void DrawRow(const Rig& rig, const Moment& moment, const std::array<std::vector<std::size_t>, 2>& channels,
-             const cv::Rect2d& row, Canvas& canvas) {
+void DrawRow(const Rig& rig, const Moment& moment,
+             const std::array<std::vector<std::size_t>, 2>& channels, const cv::Rect2d& row,
+             Canvas& canvas) {
   canvas.Box(row, 10, palette::kCard);
   const cv::Rect2d window{row.x + kInset, row.y + kInset, kPictureWidth, kPictureHeight};
   canvas.Box(window, 6, palette::kInk);
@@ -137,16 +141,19 @@ void DrawRow(const Rig& rig, const Moment& moment, const std::array<std::vector<
   for (std::size_t kind = 0; kind < channels.size(); ++kind) {
     if (channels[kind].empty()) continue;
     DrawBars(rig, moment, channels[kind], headings[kind],
-             {row.x + kBarColumns[column], row.y + kBarsTop + kBarPitch / 2}, *colours[kind], canvas);
+             {row.x + kBarColumns[column], row.y + kBarsTop + kBarPitch / 2}, *colours[kind],
+             canvas);
     ++column;
   }
 }
 
 void DrawHead(const std::string& title, std::span<const Figure> figures, Canvas& canvas) {
   canvas.Text("facewire", {kMargin, 54}, 26, palette::kInk, Align::kLeft, true);
-  canvas.Text(title, {kMargin + Canvas::TextWidth("facewire", 26, true) + 22, 54}, 13, palette::kMuted);
+  canvas.Text(title, {kMargin + Canvas::TextWidth("facewire", 26, true) + 22, 54}, 13,
+              palette::kMuted);
   const std::size_t count = std::min(figures.size(), kMaxFigures);
-  const double width = (kSheetWidthPx - 2 * kMargin) / static_cast<double>(std::max<std::size_t>(count, 1));
+  const double width =
+      (kSheetWidthPx - 2 * kMargin) / static_cast<double>(std::max<std::size_t>(count, 1));
   for (std::size_t i = 0; i < count; ++i) {
     const double x = kMargin + width * static_cast<double>(i);
     canvas.Box({x, 82, width - 10, 70}, 8, palette::kCard);
@@ -160,7 +167,8 @@ void DrawHead(const std::string& title, std::span<const Figure> figures, Canvas&
 cv::Mat DrawSheet(const std::string& title, std::span<const Figure> figures, const Rig& rig,
                   std::span<const Moment> moments) {
   const double rows = static_cast<double>(moments.size());
-  Canvas canvas(kSheetWidthPx, static_cast<int>(kHeadHeight + rows * (kRowHeight + kRowGap) + kRowGap),
+  Canvas canvas(kSheetWidthPx,
+                static_cast<int>(kHeadHeight + rows * (kRowHeight + kRowGap) + kRowGap),
                 palette::kPaper);
   DrawHead(title, figures, canvas);
   const std::array channels{Liveliest(rig, moments, true), Liveliest(rig, moments, false)};

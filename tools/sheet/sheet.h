@@ -17,11 +17,11 @@ inline constexpr int kSheetWidthPx = 1600;
 
 // One row of a contact sheet: what the camera saw, and what the character was told at that frame.
 struct Moment {
-  std::string caption;     // "mouth wide open"
+  std::string caption;      // "mouth wide open"
   std::uint64_t frame = 0;  // of the recording
-  double time_s = 0;       // in the recording
-  cv::Mat picture;         // 8-bit BGR
-  Landmarks landmarks;     // of the picture; count 0 = no face
+  double time_s = 0;        // in the recording
+  cv::Mat picture;          // 8-bit BGR
+  Landmarks landmarks;      // of the picture; count 0 = no face
   RigPose pose;
 };
 
@@ -32,9 +32,9 @@ struct Figure {
 };
 inline constexpr std::size_t kMaxFigures = 8;
 
-// Draws a contact sheet, kSheetWidthPx wide and as high as the moments need: title and figures on top,
-// then a row for each moment: the picture with its landmarks, the character, and bars for the channels of
-// the rig that move most in these moments. The result is 8-bit BGR.
+// Draws a contact sheet, kSheetWidthPx wide and as high as the moments need: title and figures on
+// top, then a row for each moment: the picture with its landmarks, the character, and bars for the
+// channels of the rig that move most in these moments. The result is 8-bit BGR.
 cv::Mat DrawSheet(const std::string& title, std::span<const Figure> figures, const Rig& rig,
                   std::span<const Moment> moments);
 

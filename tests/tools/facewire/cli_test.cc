@@ -1,0 +1,72 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tests/tools/facewire/run.h"
+
+namespace facewire::tools {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(FacewireCli, HelpsAndTellsItsVersion) {
+  const Outcome help = RunFacewire({"--help"});
+  EXPECT_EQ(help.code, 0);
+  EXPECT_THAT(RunFacewire({"--version"}).out, StartsWith("facewire "));
+  for (const char* command :
+       {"track", "retarget", "neutral", "train", "monitor", "sheet", "doctor"}) {
+    EXPECT_THAT(help.out, HasSubstr(command));
+    const Outcome own = RunFacewire({command, "--help"});
+    EXPECT_EQ(own.code, 0) << command;
+    EXPECT_THAT(own.out, HasSubstr("Usage: ")) << command;
+  }
+}
+
+// Whatever is wrong with what was given: exit code 2, one line that says it, and no output file.
+TEST(FacewireCli, AnswersBadInputWithOneLineAndExitCode2) {
+  const Scratch scratch;
+  const std::string out = scratch.Path("out.jsonl");
+  const std::string no_video = scratch.Write("no_video.mp4", "this is text");
+  const std::string rig =
+      scratch.Write("rig.toml", "name = \"r\"\n[[parameter]]\nname = \"jawOpen\"\n");
+  const std::string markers = scratch.Write("m.csv", "a_x,a_y,a_z\n1,2,3\n");
+  struct Case {
+    std::vector<std::string> arguments;
+    std::string says;
+  };
+  const Case cases[] = {
+      {{}, "subcommand is required"},
+      {{"dance"}, "see facewire --help"},
+      {{"track", no_video}, "--out is required"},
+      {{"track", no_video, "--out", out}, "no_video.mp4"},
+      {{"track", "/nowhere.mp4", "--out", out}, "/nowhere.mp4"},
+      {{"track", "libcamera:0", "--out", out}, "libcamera"},
+      {{"track", "v4l2:/dev/no_such_camera", "--out", out}, "/dev/no_such_camera"},
+      {{"track", no_video, "--out", out, "--model", "huge"}, "huge"},
+      {{"track", no_video, "--out", out, "--networks", "/nowhere"}, "/nowhere"},
+      {{"retarget", markers, "--rig", rig, "--out", out}, "--profile"},
+      {{"retarget", no_video, "--rig", "/nowhere.toml", "--out", out}, "/nowhere.toml"},
+      {{"retarget", no_video, "--rig", rig, "--neutral", "9:3", "--out", out}, "--neutral 9:3"},
+      {{"retarget", no_video, "--rig", rig, "--profile", no_video, "--out", out}, "no_video.mp4"},
+      {{"retarget", "v4l2:/dev/video0", "--rig", rig, "--out", out}, "takes a recording"},
+      {{"sheet", markers, "--video", no_video, "--rig", rig, "--out", out}, "not a recording"},
+      {{"neutral", no_video, "--frames", "x", "--out", out}, "--frames x"},
+  };
+  const std::size_t files = scratch.Files();
+  for (const Case& bad : cases) {
+    const Outcome outcome = RunFacewire(bad.arguments);
+    EXPECT_EQ(outcome.code, 2) << bad.says << ": " << outcome.err;
+    EXPECT_THAT(outcome.err, StartsWith("facewire: ")) << bad.says;
+    EXPECT_THAT(outcome.err, HasSubstr(bad.says));
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+  EXPECT_EQ(scratch.Files(), files);
+}
+
+}  // namespace
+}  // namespace facewire::tools

@@ -30,7 +30,8 @@ class OutputFileTest : public testing::Test {
 
   std::string Path() const { return (folder_ / "out.jsonl").string(); }
   std::size_t FilesLeft() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
   }
   static std::string Contents(const std::string& path) {
     std::ifstream file(path);

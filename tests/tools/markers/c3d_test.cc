@@ -33,10 +33,12 @@ struct Context {
   float scale = 0.5F;
   std::uint8_t processor = 84;
   std::string units = "mm";
-  std::vector<std::vector<double>> frames{{10, 20, 30, 0, 1, 2, 3, 0}, {12, 22, 32, 0, 0, 0, 0, -1}};
+  std::vector<std::vector<double>> frames{{10, 20, 30, 0, 1, 2, 3, 0},
+                                          {12, 22, 32, 0, 0, 0, 0, -1}};
 
   std::string Parameter(std::int8_t group, const std::string& name, std::int8_t type,
-                        const std::vector<std::uint8_t>& dimensions, const std::string& data) const {
+                        const std::vector<std::uint8_t>& dimensions,
+                        const std::string& data) const {
     std::string out;
     Append(out, static_cast<std::int8_t>(name.size()));
     Append(out, group);

@@ -23,7 +23,8 @@ std::string ErrorOf(const std::string& contents) {
 }
 
 TEST(MarkerCsv, ReadsThreeColumnsAMarkerAndSkipsOthers) {
-  const Take take = ReadCsv("frame,chin_x,chin_y,chin_z,note,brow_x,brow_y,brow_z\n0,1,2,3,hi,-1.5,+2,3e1\n", "m.csv");
+  const Take take = ReadCsv(
+      "frame,chin_x,chin_y,chin_z,note,brow_x,brow_y,brow_z\n0,1,2,3,hi,-1.5,+2,3e1\n", "m.csv");
   EXPECT_THAT(take.names, ElementsAre("chin", "brow"));
   ASSERT_EQ(take.frames.size(), 1U);
   EXPECT_EQ(take.frames[0][0], (Point3{1, 2, 3}));
@@ -48,9 +49,11 @@ TEST(MarkerCsv, DerivesTheRateFromATimeColumn) {
 }
 
 TEST(MarkerCsv, SaysWhereALineIsWrong) {
-  EXPECT_THAT(ErrorOf("a_x,a_y,a_z\n1,2,3\n1,2\n"), HasSubstr("m.csv:3: 2 fields; the header has 3"));
+  EXPECT_THAT(ErrorOf("a_x,a_y,a_z\n1,2,3\n1,2\n"),
+              HasSubstr("m.csv:3: 2 fields; the header has 3"));
   EXPECT_THAT(ErrorOf("a_x,a_y,a_z\n1,two,3\n"), HasSubstr("m.csv:2: \"two\" is not a number"));
-  EXPECT_THAT(ErrorOf("a_x,a_z,a_y\n1,2,3\n"), HasSubstr("m.csv:1: a_x is not followed by a_y and a_z"));
+  EXPECT_THAT(ErrorOf("a_x,a_z,a_y\n1,2,3\n"),
+              HasSubstr("m.csv:1: a_x is not followed by a_y and a_z"));
   EXPECT_THAT(ErrorOf("jawOpen,eyeBlink\n1,2\n"), HasSubstr("no columns NAME_x,NAME_y,NAME_z"));
   EXPECT_THAT(ErrorOf(""), HasSubstr("empty"));
 }

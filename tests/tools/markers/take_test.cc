@@ -33,7 +33,8 @@ TEST(MarkerTake, IsReadByTheEndingOfTheName) {
 }
 
 TEST(MarkerTake, NamesTheFileThatIsWrong) {
-  EXPECT_THAT(ErrorOf(Scratch("x.fbx", "")), HasSubstr("x.fbx: not a marker file; .csv, .trc or .c3d"));
+  EXPECT_THAT(ErrorOf(Scratch("x.fbx", "")),
+              HasSubstr("x.fbx: not a marker file; .csv, .trc or .c3d"));
   EXPECT_THAT(ErrorOf("/nowhere/a.csv"), HasSubstr("/nowhere/a.csv: cannot be read"));
   EXPECT_THAT(ErrorOf(Scratch("only_header.csv", "a_x,a_y,a_z\n")), HasSubstr("no frames"));
 }

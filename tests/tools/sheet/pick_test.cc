@@ -35,10 +35,11 @@ TEST(PickMoments, FindsTheCalmestPoseAndTheExtremesInTheOrderOfTime) {
   Set(context.rig, context.poses[200], "upper_lid_R.pitch", 45);
   Set(context.rig, context.poses[100], "jaw.pitch", 20);
   Set(context.rig, context.poses[101], "jaw.pitch", 18);
-  EXPECT_THAT(context.Call(),
-              ElementsAre(testing::AllOf(Field(&Pick::index, 0), Field(&Pick::caption, "calm")),
-                          testing::AllOf(Field(&Pick::index, 100), Field(&Pick::caption, "mouth open")),
-                          testing::AllOf(Field(&Pick::index, 200), Field(&Pick::caption, "eyes shut"))));
+  EXPECT_THAT(
+      context.Call(),
+      ElementsAre(testing::AllOf(Field(&Pick::index, 0), Field(&Pick::caption, "calm")),
+                  testing::AllOf(Field(&Pick::index, 100), Field(&Pick::caption, "mouth open")),
+                  testing::AllOf(Field(&Pick::index, 200), Field(&Pick::caption, "eyes shut"))));
 }
 
 TEST(PickMoments, LeavesOutWhatHardlyOccursAndAWink) {
@@ -53,7 +54,8 @@ TEST(PickMoments, KeepsHalfASecondBetweenTwo) {
   Set(context.rig, context.poses[100], "jaw.pitch", 24);
   Set(context.rig, context.poses[105], "neck.yaw", 50);
   Set(context.rig, context.poses[113], "neck.yaw", 40);
-  EXPECT_THAT(context.Call(), ElementsAre(Field(&Pick::index, 0), Field(&Pick::index, 100), Field(&Pick::index, 113)));
+  EXPECT_THAT(context.Call(), ElementsAre(Field(&Pick::index, 0), Field(&Pick::index, 100),
+                                          Field(&Pick::index, 113)));
 }
 
 TEST(PickMoments, GivesAtMostWhatIsAskedForAndNothingForNothing) {

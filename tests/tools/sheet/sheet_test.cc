@@ -55,16 +55,20 @@ TEST(Sheet, CopesWithFacesAtTheEdgePicturesOfAnyShapeAndNoPicture) {
   moments[1].picture = cv::Mat(640, 40, CV_8UC3, cv::Scalar(0, 0, 0));
   moments[2].landmarks.count = kMaxLandmarks;
   for (std::size_t i = 0; i < kMaxLandmarks; ++i) {
-    moments[2].landmarks.points_px[i] = {static_cast<float>(i % 50) - 40, static_cast<float>(i / 10) - 20, 0};
+    moments[2].landmarks.points_px[i] = {static_cast<float>(i % 50) - 40,
+                                         static_cast<float>(i / 10) - 20, 0};
   }
   EXPECT_EQ(DrawSheet("t", {}, rig, moments).cols, kSheetWidthPx);
 }
 
 TEST(Sheet, CopesWithMoreChannelsAndFiguresThanItShows) {
   Rig rig;
-  for (int i = 0; i < 60; ++i) AddChannel(rig, "parameter_with_a_long_name_" + std::to_string(i), ChannelKind::kParameter, 0, 1);
+  for (int i = 0; i < 60; ++i)
+    AddChannel(rig, "parameter_with_a_long_name_" + std::to_string(i), ChannelKind::kParameter, 0,
+               1);
   const std::vector<Moment> moments{MakeMoment(rig)};
-  const std::vector<Figure> figures(20, Figure{"12345678", "a label that is too long for its place"});
+  const std::vector<Figure> figures(20,
+                                    Figure{"12345678", "a label that is too long for its place"});
   EXPECT_EQ(DrawSheet("t", figures, rig, moments).cols, kSheetWidthPx);
 }
 

@@ -1,0 +1,223 @@
+#include <fcntl.h>
+#include <grp.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/config.h"
+#include "app/error.h"
+#include "app/networks.h"
+#include "app/profile_file.h"
+#include "app/rig_file.h"
+#include "tools/facewire/commands.h"
+#include "tools/facewire/face_reader.h"
+#include "tools/facewire/json.h"
+
+namespace facewire::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DoctorOptions {
+  std::string config = "/etc/facewire/facewire.toml";
+  std::string networks;
+  bool json = false;
+};
+
+enum class Verdict { kOk, kWarn, kFail };  // works; a part will not work; nothing will
+const char* Name(Verdict verdict) {
+  return verdict == Verdict::kOk ? "OK" : verdict == Verdict::kWarn ? "WARN" : "FAIL";
+}
+
+struct Finding {
+  std::string what;
+  Verdict verdict = Verdict::kOk;
+  std::string found;
+  std::string fix;  // a command, or what to do; empty when all is well
+};
+
+// The first line of a message; its other lines are more of the same kind.
+std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+// Runs something that reports by exception.
+Finding Try(const std::string& what, const std::string& good, const std::string& fix,
+            const std::function<void()>& check) {
+  try {
+    check();
+    return {what, Verdict::kOk, good, ""};
+  } catch (const std::exception& error) {
+    return {what, Verdict::kFail, FirstLine(error.what()), fix};
+  }
+}
+
+Finding CheckNetworks(const DoctorOptions& options) {
+  const fs::path folder = NetworksFolder(options.networks);
+  return Try("networks", folder.string() + ", checksums right", "tools/setup", [&] {
+    (void)app::LoadNetworks(folder, track::Model::kAttention);
+    (void)app::LoadNetworks(folder, track::Model::kMesh);
+  });
+}
+
+void CheckConfig(const DoctorOptions& options, std::vector<Finding>& findings) {
+  if (!fs::exists(options.config)) {
+    findings.push_back({"configuration", Verdict::kWarn, "there is no " + options.config,
+                        "copy app/share/facewire.toml there, or name another with --config"});
+    return;
+  }
+  app::Config config;
+  findings.push_back(Try("configuration", options.config,
+                         "facewired --check --config " + options.config,
+                         [&] { config = app::LoadConfig(options.config); }));
+  if (findings.back().verdict != Verdict::kOk) return;
+  findings.push_back(Try("rig", config.character.rig.string(), "correct [character] rig",
+                         [&] { (void)app::LoadRig(config.character.rig); }));
+  if (config.character.profile.empty()) return;
+  findings.push_back(Try("profile", config.character.profile.string(),
+                         "correct [character] profile",
+                         [&] { (void)app::LoadProfile(config.character.profile); }));
+}
+
+// Device nodes whose names begin with one of the prefixes, in order.
+std::vector<std::string> Devices(std::initializer_list<std::string_view> prefixes) {
+  std::vector<std::string> found;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator("/dev", ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (std::ranges::any_of(prefixes, [&](std::string_view p) { return name.starts_with(p); })) {
+      found.push_back(entry.path().string());
+    }
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+void CheckDevices(const std::string& what, std::initializer_list<std::string_view> prefixes,
+                  const std::string& group, std::vector<Finding>& findings) {
+  const std::vector<std::string> devices = Devices(prefixes);
+  if (devices.empty()) {
+    findings.push_back({what, Verdict::kWarn, "none is plugged in",
+                        "plug one in; dmesg shows whether it is seen"});
+  }
+  for (const std::string& device : devices) {
+    const int fd = open(device.c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    const int error = errno;
+    if (fd >= 0) {
+      close(fd);
+      findings.push_back({what, Verdict::kOk, device, ""});
+    } else if (error == EACCES) {
+      findings.push_back({what, Verdict::kFail, device + ": no permission",
+                          "sudo usermod -aG " + group + " $USER, then log in again"});
+    } else {
+      findings.push_back({what, Verdict::kWarn, device + ": " + std::strerror(error),
+                          "end the program that holds it, or unplug it and plug it in again"});
+    }
+  }
+}
+
+Finding CheckGroup(const std::string& name) {
+  if (geteuid() == 0) return {"group " + name, Verdict::kOk, "root needs none", ""};
+  const group* entry = getgrnam(name.c_str());
+  if (entry == nullptr) return {"group " + name, Verdict::kOk, "this system has none", ""};
+  std::vector<gid_t> groups(static_cast<std::size_t>(std::max(getgroups(0, nullptr), 0)));
+  const int count = getgroups(static_cast<int>(groups.size()), groups.data());
+  groups.resize(static_cast<std::size_t>(std::max(count, 0)));
+  if (getegid() == entry->gr_gid || std::ranges::find(groups, entry->gr_gid) != groups.end()) {
+    return {"group " + name, Verdict::kOk, "you are in it", ""};
+  }
+  return {"group " + name, Verdict::kWarn, "you are not in it",
+          "sudo usermod -aG " + name + " $USER, then log in again"};
+}
+
+Finding CheckClock() {
+  timespec resolution{};
+  if (clock_getres(CLOCK_MONOTONIC, &resolution) != 0) {
+    return {"clock", Verdict::kFail, "there is no monotonic clock", "another kernel"};
+  }
+  if (resolution.tv_sec > 0 || resolution.tv_nsec > 1'000'000) {
+    return {"clock", Verdict::kWarn, "coarse: " + std::to_string(resolution.tv_nsec / 1000) + " us",
+            "a kernel with high-resolution timers"};
+  }
+  return {"clock", Verdict::kOk, "monotonic, " + std::to_string(resolution.tv_nsec) + " ns", ""};
+}
+
+Finding CheckMemoryLock() {
+  constexpr rlim_t kNeeded = rlim_t{256} << 20U;  // more than the service holds without footage
+  rlimit limit{};
+  if (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
+      limit.rlim_cur < kNeeded && geteuid() != 0) {
+    return {
+        "memory lock", Verdict::kWarn,
+        std::to_string(limit.rlim_cur >> 20U) + " MiB may be locked; pages may go to disk",
+        "run facewired under systemd with LimitMEMLOCK=infinity, or ulimit -l unlimited as root"};
+  }
+  return {"memory lock", Verdict::kOk, "enough", ""};
+}
+
+void PrintTable(const std::vector<Finding>& findings) {
+  for (const Finding& finding : findings) {
+    std::printf("%-5s %-14s %s\n", Name(finding.verdict), finding.what.c_str(),
+                finding.found.c_str());
+    if (!finding.fix.empty()) std::printf("%-5s %-14s -> %s\n", "", "", finding.fix.c_str());
+  }
+}
+
+void PrintJson(const std::vector<Finding>& findings) {
+  for (const Finding& finding : findings) {
+    std::string line = "{\"check\":";
+    json::AppendString(line, finding.what);
+    line += ",\"verdict\":";
+    json::AppendString(line, Name(finding.verdict));
+    line += ",\"found\":";
+    json::AppendString(line, finding.found);
+    line += ",\"fix\":";
+    json::AppendString(line, finding.fix);
+    std::printf("%s}\n", line.c_str());
+  }
+}
+
+void Doctor(const DoctorOptions& options) {
+  std::vector<Finding> findings;
+  findings.push_back(CheckNetworks(options));
+  CheckConfig(options, findings);
+  CheckDevices("camera", {"video"}, "video", findings);
+  CheckDevices("serial port", {"ttyACM", "ttyUSB", "ttyAMA"}, "dialout", findings);
+  findings.push_back(CheckGroup("video"));
+  findings.push_back(CheckGroup("dialout"));
+  findings.push_back(CheckClock());
+  findings.push_back(CheckMemoryLock());
+  options.json ? PrintJson(findings) : PrintTable(findings);
+  const auto failed = std::ranges::count(findings, Verdict::kFail, &Finding::verdict);
+  if (failed > 0)
+    throw app::Failure("doctor: " + std::to_string(failed) + " of these must be put right first");
+}
+
+}  // namespace
+
+void AddDoctor(CLI::App& facewire) {
+  auto options = std::make_shared<DoctorOptions>();
+  CLI::App* command = facewire.add_subcommand(
+      "doctor", "Find what keeps this machine from working, and what fixes it");
+  command->add_option("--config", options->config, "The service's configuration")
+      ->capture_default_str();
+  command->add_option(
+      "--networks", options->networks,
+      "Folder of the .tflite files; else FACEWIRE_NETWORKS, else the installed ones");
+  command->add_flag("--json", options->json, "A JSON object a line instead of a table");
+  command->footer(
+      "OK: works. WARN: a part will not work. FAIL: must be put right first, exit code 1.");
+  command->callback([options] { Doctor(*options); });
+}
+
+}  // namespace facewire::tools
