@@ -66,7 +66,7 @@ int Width(std::string_view text) {
   }));
 }
 
-std::string Padded(std::string text, int width, bool right) {
+std::string Padded(const std::string& text, int width, bool right) {
   const int missing = std::max(0, width - Width(text));
   const std::string spaces(static_cast<std::size_t>(missing), ' ');
   return right ? spaces + text : text + spaces;
