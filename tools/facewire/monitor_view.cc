@@ -115,7 +115,9 @@ std::string TitleLine(const MonitorModel& m, int columns, ScreenStyle style) {
     rig = Format("%.*s  %zu bones  %zu channels", static_cast<int>(r.name.view().size()),
                  r.name.view().data(), r.bones.size(), r.channels.size());
   } else if (m.pose) {
+    const std::size_t missing = m.rig.missing();
     rig = "waiting for the rig description";
+    if (missing > 0) rig += Format(" (%zu to come)", missing);
   }
   Line line(columns, style);
   // Of a long path the end tells ports apart.
