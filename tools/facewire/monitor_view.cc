@@ -66,7 +66,7 @@ int Width(std::string_view text) {
   }));
 }
 
-std::string Padded(std::string text, int width, bool right) {
+std::string Padded(const std::string& text, int width, bool right) {
   const int missing = std::max(0, width - Width(text));
   const std::string spaces(static_cast<std::size_t>(missing), ' ');
   return right ? spaces + text : text + spaces;
@@ -115,7 +115,9 @@ std::string TitleLine(const MonitorModel& m, int columns, ScreenStyle style) {
     rig = Format("%.*s  %zu bones  %zu channels", static_cast<int>(r.name.view().size()),
                  r.name.view().data(), r.bones.size(), r.channels.size());
   } else if (m.pose) {
+    const std::size_t missing = m.rig.missing();
     rig = "waiting for the rig description";
+    if (missing > 0) rig += Format(" (%zu to come)", missing);
   }
   Line line(columns, style);
   // Of a long path the end tells ports apart.

@@ -71,10 +71,10 @@ struct Context {
     }
   }
   // `count` poses, 1/25 s apart.
-  void FeedPoses(int count) {
-    for (int i = 0; i < count; ++i) {
+  void FeedPoses(std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) {
       const Time at = clock.Now() + milliseconds(40 * (i + 1));
-      Feed(PoseFrame(static_cast<std::uint64_t>(100 + i), at), at);
+      Feed(PoseFrame(100 + i, at), at);
     }
   }
   MonitorEnd Run(MonitorRecorder* recorder = nullptr) {
@@ -121,10 +121,11 @@ std::vector<std::string> Lines(const std::string& text) {
   std::vector<std::string> lines;
   std::string line;
   for (char c : text) {
-    if (c == '\n')
+    if (c == '\n') {
       lines.push_back(std::exchange(line, {}));
-    else
+    } else {
       line += c;
+    }
   }
   if (!line.empty()) lines.push_back(line);
   return lines;
