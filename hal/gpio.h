@@ -5,12 +5,14 @@
 
 namespace facewire::hal {
 
-// Lines are logical: true means "asserted", whatever the electrical polarity, which the backend knows.
+// Lines are logical: true means "asserted", whatever the electrical polarity, which the backend
+// knows.
 
 class GpioInput {
  public:
   virtual ~GpioInput() = default;
-  // The line's present level. kDisconnected, kIo: the caller treats an unreadable line as the unsafe one.
+  // The line's present level. kDisconnected, kIo: the caller treats an unreadable line as the
+  // unsafe one.
   virtual Result<bool> Get() = 0;
 };
 

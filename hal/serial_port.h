@@ -28,7 +28,8 @@ class SerialPort {
 
   // Reads what has arrived, at least one byte, into the front of `buffer`. Allocates nothing.
   // kTimeout (nothing came), kDisconnected (also when not open), kIo.
-  virtual Result<std::size_t> Read(std::span<std::byte> buffer, std::chrono::milliseconds timeout) = 0;
+  virtual Result<std::size_t> Read(std::span<std::byte> buffer,
+                                   std::chrono::milliseconds timeout) = 0;
 
   virtual void Close() = 0;
 };

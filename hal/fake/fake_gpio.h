@@ -1,8 +1,6 @@
 #ifndef FACEWIRE_HAL_FAKE_FAKE_GPIO_H_
 #define FACEWIRE_HAL_FAKE_FAKE_GPIO_H_
 
-#include <optional>
-
 #include "core/base/time.h"
 #include "hal/clock.h"
 #include "hal/fake/recording.h"
@@ -14,17 +12,21 @@ namespace facewire::hal::fake {
 class FakeGpioInput final : public GpioInput {
  public:
   Result<bool> Get() override {
-    if (fault_) return *fault_;
+    if (broken_) return fault_;
     return asserted_;
   }
   void Hold(bool asserted) noexcept { asserted_ = asserted; }
   // Every Get fails so until Repair.
-  void Break(Errc fault) noexcept { fault_ = fault; }
-  void Repair() noexcept { fault_.reset(); }
+  void Break(Errc fault) noexcept {
+    broken_ = true;
+    fault_ = fault;
+  }
+  void Repair() noexcept { broken_ = false; }
 
  private:
   bool asserted_ = false;
-  std::optional<Errc> fault_;
+  bool broken_ = false;
+  Errc fault_ = Errc::kIo;
 };
 
 struct GpioChange {
@@ -39,7 +41,7 @@ class FakeGpioOutput final : public GpioOutput {
   explicit FakeGpioOutput(Clock& clock) noexcept : clock_(clock) {}
 
   Result<> Set(bool asserted) override {
-    if (fault_) return *fault_;
+    if (broken_) return fault_;
     if (asserted != asserted_) changes_.Add({.at = clock_.Now(), .asserted = asserted});
     asserted_ = asserted;
     return {};
@@ -47,13 +49,17 @@ class FakeGpioOutput final : public GpioOutput {
   bool asserted() const noexcept { return asserted_; }
   // Only real changes: setting the level that the line has already is none.
   const Recording<GpioChange, 64>& changes() const noexcept { return changes_; }
-  void Break(Errc fault) noexcept { fault_ = fault; }
-  void Repair() noexcept { fault_.reset(); }
+  void Break(Errc fault) noexcept {
+    broken_ = true;
+    fault_ = fault;
+  }
+  void Repair() noexcept { broken_ = false; }
 
  private:
   Clock& clock_;
   bool asserted_ = false;
-  std::optional<Errc> fault_;
+  bool broken_ = false;
+  Errc fault_ = Errc::kIo;
   Recording<GpioChange, 64> changes_;
 };
 

@@ -77,8 +77,8 @@ void FakeSerialPort::DropFront(std::size_t bytes) noexcept {
 
 Result<std::size_t> FakeSerialPort::Read(std::span<std::byte> buffer,
                                          std::chrono::milliseconds timeout) {
-  if (buffer.empty()) return Errc::kInvalidArgument;
   if (!open_) return Errc::kDisconnected;
+  if (buffer.empty()) return Errc::kInvalidArgument;
   const Time deadline = clock_.Now() + timeout;
   if (feeds_.empty() || feeds_[0].due > deadline) {
     clock_.SleepUntil(deadline);

@@ -55,6 +55,7 @@ Result<> PtyHost::Open() {
   std::string device_path = name.data();
   if (Result<> linked = MakeLink(device_path); !linked) return linked;
   device_path_ = std::move(device_path);
+  unread_ = false;
   master_ = std::move(master);
   return {};
 }
@@ -83,6 +84,15 @@ void PtyHost::Close() {
   master_.Reset();
 }
 
+// From the device's own end: a flush of the master's does not reach what the kernel has already put
+// into the device's line buffer.
+void PtyHost::DropUnread() noexcept {
+  if (!unread_) return;
+  const posix::UniqueFd device(
+      ::open(device_path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  unread_ = !device || ::tcflush(device.get(), TCIFLUSH) != 0;
+}
+
 Result<std::size_t> PtyHost::Write(std::span<const std::byte> bytes,
                                    std::chrono::milliseconds timeout) {
   if (!master_) return Errc::kDisconnected;
@@ -94,10 +104,11 @@ Result<std::size_t> PtyHost::Write(std::span<const std::byte> bytes,
                                       : Result<std::size_t>(ready.error());
     if (count) {
       taken += *count;
+      unread_ = true;
       continue;
     }
     if (count.error() == Errc::kDisconnected) {
-      ::tcflush(master_.get(), TCOFLUSH);
+      DropUnread();
       // A message that lost its reader half-way has no second half for the next one.
       if (taken > 0) return taken;
       if (!deadline.passed()) {

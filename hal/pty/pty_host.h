@@ -12,9 +12,9 @@ namespace facewire::hal::pty {
 // device_path(), or the link, as if it were a serial device.
 //
 // The line behaves like a USB gadget's: nobody at the other end is silence, never kDisconnected.
-// Write then takes nothing and answers kTimeout at the deadline, and what an earlier reader left
-// unread is thrown away, so whoever opens the device next starts with fresh bytes. Readers may come
-// and go.
+// Write then takes nothing, throws away what an earlier reader left unread and answers kTimeout at
+// the deadline, so whoever opens the device next starts with fresh bytes. A write whose reader
+// leaves in the middle is cut short there. Readers may come and go.
 class PtyHost final : public SerialPort {
  public:
   // With a `link`, Open makes that symbolic link to the device and Close removes it.
@@ -36,10 +36,12 @@ class PtyHost final : public SerialPort {
 
  private:
   Result<> MakeLink(const std::string& device_path) const;
+  void DropUnread() noexcept;
 
   std::string link_;
   std::string device_path_;
   posix::UniqueFd master_;
+  bool unread_ = false;  // bytes were written since the last DropUnread
 };
 
 }  // namespace facewire::hal::pty

@@ -34,7 +34,7 @@ TEST(Pacer, TimesDoNotDriftWhenThePeriodIsNoWholeNumber) {
   const Pacer pacer(clock, Pace::kRealTime, 30);
   EXPECT_EQ(pacer.CapturedAt(1), Time{Duration(33333)});
   EXPECT_EQ(pacer.CapturedAt(2), Time{Duration(66667)});
-  EXPECT_EQ(pacer.CapturedAt(30 * 3600), Time{std::chrono::hours(1)});
+  EXPECT_EQ(pacer.CapturedAt(108000), Time{std::chrono::hours(1)});
 }
 
 TEST(Pacer, EveryFrameIsDueExactlyWhenItIsCaptured) {

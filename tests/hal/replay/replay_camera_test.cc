@@ -21,7 +21,7 @@ using test::TemporaryFolder;
 
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;
-constexpr std::size_t kFrameBytes = 3 * kWidth * kHeight;
+constexpr std::size_t kFrameBytes = std::size_t{3} * kWidth * kHeight;
 constexpr int kFrames = 20;
 
 // A clip of kFrames at 25 fps whose frames tell their number: frame n is a plane of grey 10 n + 20.
@@ -141,7 +141,7 @@ TEST_F(ReplayCameraTest, LoopsInEveryMode) {
   ASSERT_TRUE(streamed.Start());
   std::vector<int> twice = Numbers(0, kFrames);
   for (int n = 0; n < kFrames; ++n) twice.push_back(n);
-  EXPECT_EQ(Play(streamed, 2 * kFrames), twice);
+  EXPECT_EQ(Play(streamed, twice.size()), twice);
 }
 
 TEST_F(ReplayCameraTest, SequenceAndTimeGoOnThroughLoops) {

@@ -98,10 +98,10 @@ int FakeKernel::SetFormat(v4l2_format& format) {
     return std::abs(static_cast<double>(mode.width) - pix.width) +
            std::abs(static_cast<double>(mode.height) - pix.height);
   };
-  const FakeMode* nearest = nullptr;
+  const FakeMode* nearest = &modes.front();
   for (const FakeMode& mode : modes) {
     if (!of_format(mode)) continue;
-    if (nearest == nullptr || distance(mode) < distance(*nearest)) nearest = &mode;
+    if (!of_format(*nearest) || distance(mode) < distance(*nearest)) nearest = &mode;
   }
   mode_ = *nearest;
   pix.width = mode_.width;

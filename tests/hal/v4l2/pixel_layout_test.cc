@@ -23,11 +23,11 @@ struct Row {
   std::size_t bytes;
 };
 const Row kRows[] = {
-    {PixelFormat::kGrey8, 0, {8, 0, 0}, {0, 0, 0}, 8 * 4},
-    {PixelFormat::kGrey8, 16, {16, 0, 0}, {0, 0, 0}, 16 * 4},
-    {PixelFormat::kYuyv, 0, {16, 0, 0}, {0, 0, 0}, 16 * 4},
-    {PixelFormat::kRgb24, 0, {24, 0, 0}, {0, 0, 0}, 24 * 4},
-    {PixelFormat::kBgr24, 32, {32, 0, 0}, {0, 0, 0}, 32 * 4},
+    {PixelFormat::kGrey8, 0, {8, 0, 0}, {0, 0, 0}, 32},
+    {PixelFormat::kGrey8, 16, {16, 0, 0}, {0, 0, 0}, 64},
+    {PixelFormat::kYuyv, 0, {16, 0, 0}, {0, 0, 0}, 64},
+    {PixelFormat::kRgb24, 0, {24, 0, 0}, {0, 0, 0}, 96},
+    {PixelFormat::kBgr24, 32, {32, 0, 0}, {0, 0, 0}, 128},
     {PixelFormat::kNv12, 0, {8, 8, 0}, {0, 32, 0}, 48},
     {PixelFormat::kNv12, 64, {64, 64, 0}, {0, 256, 0}, 384},
     {PixelFormat::kI420, 0, {8, 4, 4}, {0, 32, 40}, 48},

@@ -248,7 +248,7 @@ TEST_F(V4l2CameraTest, TheNewestFrameWinsAndTheOthersGoBack) {
   V4l2Camera camera = Make();
   ASSERT_TRUE(camera.Start());
   for (std::uint32_t n = 0; n < 4; ++n) {
-    ASSERT_TRUE(kernel.Capture(n, 1000 * (n + 1), static_cast<std::uint8_t>(n)));
+    ASSERT_TRUE(kernel.Capture(n, 1000 + n, static_cast<std::uint8_t>(n)));
   }
   const Result<Frame> first = camera.Acquire(kWait);
   ASSERT_TRUE(first);
@@ -282,7 +282,7 @@ TEST_F(V4l2CameraTest, SignalsAreNotErrors) {
   V4l2Camera camera = Make();
   ASSERT_TRUE(camera.Start()) << camera.reason();
   for (std::uint32_t n = 0; n < 5; ++n) {
-    ASSERT_TRUE(kernel.Capture(n, 1000 * (n + 1), static_cast<std::uint8_t>(n)));
+    ASSERT_TRUE(kernel.Capture(n, 1000 + n, static_cast<std::uint8_t>(n)));
     const Result<Frame> frame = camera.Acquire(std::chrono::seconds(5));
     ASSERT_TRUE(frame);
     EXPECT_EQ(frame->seq, n);
