@@ -309,8 +309,7 @@ void Rbf::Evaluate(std::span<const float> x, std::span<float> y) const noexcept 
   ApplyKernel(kernel_, terms, tail_at_);
   std::fill(terms + tail_at_, terms + stride_, 0.0F);
   if (shape_.tail != Tail::kNone) terms[tail_at_] = 1;
-  if (shape_.tail == Tail::kLinear)
-    std::copy_n(point_.data(), shape_.inputs, terms + tail_at_ + 1);
+  if (shape_.tail == Tail::kLinear) std::copy_n(point_.data(), shape_.inputs, terms + tail_at_ + 1);
   for (std::size_t o = 0; o < shape_.outputs; ++o)
     y[o] = DotProduct(terms, weights_.data() + o * stride_, stride_);
 }

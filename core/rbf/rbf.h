@@ -90,8 +90,8 @@ class Rbf {
   RbfShape shape_;  // of the last Fit; samples == 0: none
   Kernel kernel_ = Kernel::kMultiquadric;
   float epsilon_ = 1;
-  // What Evaluate multiplies with the weights: phi of every sample, then the tail's 1 and inputs, each
-  // part padded with zeros to whole blocks.
+  // What Evaluate multiplies with the weights: phi of every sample, then the tail's 1 and inputs,
+  // each part padded with zeros to whole blocks.
   std::size_t tail_at_ = 0, stride_ = 0;
   std::span<float> origin_;   // inputs: mean of the samples, subtracted for precision
   std::span<float> centres_;  // blocks of samples x inputs x kBlock, in units of 1 / epsilon

@@ -54,8 +54,7 @@ BENCHMARK(RetargeterSetNeutral)->Unit(benchmark::kMillisecond);
 
 void LoadDefaultProfile(benchmark::State& state) {
   for (auto _ : state)
-    benchmark::DoNotOptimize(
-        app::LoadProfile(FACEWIRE_SOURCE_DIR "/app/share/average.profile"));
+    benchmark::DoNotOptimize(app::LoadProfile(FACEWIRE_SOURCE_DIR "/app/share/average.profile"));
 }
 BENCHMARK(LoadDefaultProfile)->Unit(benchmark::kMillisecond);
 
