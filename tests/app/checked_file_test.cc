@@ -28,7 +28,7 @@ TEST(Crc32, MatchesThePublishedCheckValue) {
   EXPECT_EQ(Crc32({}), 0U);
 }
 
-TEST(SealedFile, HasTheLayoutThatTheReadmeSays) {
+TEST(SealedFile, HasTheLayoutThatFormatsMdSays) {
   const std::string file = Text(Seal(kKind, Bytes("abc")));
   EXPECT_EQ(file.substr(0, 8), "FWTESTED");
   EXPECT_EQ(file.substr(8, 8), std::string("\3\0\0\0\3\0\0\0", 8));
