@@ -24,7 +24,7 @@ struct FileKind {
   std::string_view remedy;  // what makes a good one: "make it again with facewire train"
 };
 
-// The frame that facewire's own binary files share (byte by byte in app/README.md): magic, version,
+// The frame that facewire's own binary files share (byte by byte in app/formats.md): magic, version,
 // length, payload, CRC-32. All numbers are little-endian.
 std::vector<std::byte> Seal(const FileKind& kind, std::span<const std::byte> payload);
 

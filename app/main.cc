@@ -1,6 +1,8 @@
 // facewired: a camera looks at a performer, and a character's face moves.
 
 #include <CLI/CLI.hpp>
+#include <sys/mman.h>
+
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -62,6 +64,9 @@ int Main(int argc, char** argv) {
   Handle(SIGINT, OnQuit);
   Handle(SIGHUP, OnReload);
   application.Open();
+  // What is in memory stays there: a frame must not wait for a disk. Without the right to do so (a
+  // developer's laptop) nothing is lost but that promise.
+  if (!options.fake) (void)::mlockall(MCL_CURRENT);
   application.Run(g_requests, facewire::Duration(static_cast<std::int64_t>(seconds * 1e6)));
   const facewire::app::RunReport report = application.Report();
   if (!stats_json.empty()) WriteJson(stats_json, report);

@@ -7,7 +7,7 @@
 
 namespace facewire::app {
 
-// The performer's neutral, kept across boots (format in app/README.md).
+// The performer's neutral, kept across boots (format in app/formats.md).
 
 // BadInput, one line: missing, not a neutral, truncated, damaged, of another version, not finite.
 retarget::Neutral LoadNeutral(const std::filesystem::path& path);

@@ -1,6 +1,7 @@
 #include "app/profile_file.h"
 
 #include <cmath>
+#include <cstdint>
 
 #include "app/checked_file.h"
 #include "app/error.h"
@@ -157,6 +158,9 @@ class Parser {
 Profile::Profile(const TrainingSet& training, const std::string& source,
                  std::span<float> leave_one_out) {
   const retarget::Training view = training.view();
+  if (auto checked = retarget::ExpressionMapping::Check(view); !checked)
+    throw BadInput(source + ": " +
+                   Describe(training, checked.error(), {.region = SIZE_MAX, .fit = {}}));
   block_.resize(retarget::ExpressionMapping::RequiredBytes(view));
   std::vector<std::byte> workspace(retarget::ExpressionMapping::WorkspaceBytes(view));
   Arena arena(block_);

@@ -7,6 +7,7 @@ namespace facewire {
 namespace {
 
 RigPose Mix(const RigPose& from, const RigPose& to, float blend) noexcept {
+  if (blend >= 1) return to;
   RigPose mixed = to;
   for (std::size_t i = 0; i < to.count; ++i) {
     mixed.values[i] = from.values[i] + blend * (to.values[i] - from.values[i]);
@@ -59,12 +60,14 @@ MotionOutput Motion::Update(const state::Inputs& in, const RigPose& wish) noexce
   return {sent_, decision.state, decision.torque, decision.finished};
 }
 
-// A value that is missing or not a number stays as it was sent: it must not enter a blend, which it
-// would never leave.
+// Within the limits before it is blended: a blend of huge numbers is none. A value that is missing or
+// not a number stays as it was sent, because a blend would never be rid of it.
 void Motion::Take(const RigPose& wish) noexcept {
   for (std::size_t i = 0; i < latest_.count; ++i) {
-    const bool usable = i < wish.count && std::isfinite(wish.values[i]);
-    latest_.values[i] = usable ? wish.values[i] : sent_.values[i];
+    const bool usable = i < wish.count && !std::isnan(wish.values[i]);
+    const Channel& channel = rig_.channels[i];
+    latest_.values[i] =
+        usable ? std::clamp(wish.values[i], channel.min, channel.max) : sent_.values[i];
   }
 }
 

@@ -6,20 +6,19 @@
 #include <limits>
 #include <memory>
 
+#include "core/rbf/lanes.h"
 #include "core/rbf/linear_solver.h"
 
 namespace facewire::rbf {
 namespace {
 
-constexpr std::size_t kLanes = 8;  // floats of the widest vector worth padding for (AVX)
-constexpr std::size_t kAlignment = kLanes * sizeof(float);
+constexpr std::size_t kAlignment = 64;  // a cache line
 
-constexpr std::size_t Padded(std::size_t n, std::size_t to) noexcept {
-  return (n + to - 1) / to * to;
+constexpr std::size_t Padded(std::size_t n) noexcept { return (n + kBlock - 1) / kBlock * kBlock; }
+
+constexpr std::size_t Stride(const RbfShape& shape) noexcept {
+  return Padded(shape.samples) + Padded(shape.tail_size());
 }
-
-// Of Evaluate's outputs: four lanes, since most functions here have three outputs.
-constexpr std::size_t OutputStride(std::size_t outputs) noexcept { return Padded(outputs, 4); }
 
 std::span<float> MakeFloats(Arena& arena, std::size_t count) noexcept {
   void* at = arena.Allocate(count * sizeof(float), kAlignment);
@@ -31,18 +30,6 @@ std::span<float> MakeFloats(Arena& arena, std::size_t count) noexcept {
 
 bool AllFinite(std::span<const float> values) noexcept {
   return std::ranges::all_of(values, [](float v) { return std::isfinite(v); });
-}
-
-void AddSquaredDifferences(float x, const float* __restrict c, float* __restrict sum,
-                           std::size_t n) noexcept {
-  for (std::size_t i = 0; i < n; ++i) {
-    const float d = x - c[i];
-    sum[i] += d * d;
-  }
-}
-
-void AddScaled(float a, const float* __restrict x, float* __restrict y, std::size_t n) noexcept {
-  for (std::size_t i = 0; i < n; ++i) y[i] += a * x[i];
 }
 
 // Squared distances in units of 1 / epsilon, replaced by phi.
@@ -166,10 +153,8 @@ struct Rbf::Problem {
 };
 
 std::size_t Rbf::RequiredBytes(const RbfShape& c) noexcept {
-  const std::size_t samples = Padded(c.samples, kLanes);
-  const std::size_t floats = Padded(c.inputs, kLanes) + c.inputs * samples +
-                             (c.samples + c.tail_size() + 1) * OutputStride(c.outputs) + samples +
-                             OutputStride(c.outputs);
+  const std::size_t floats =
+      2 * c.inputs + c.inputs * Padded(c.samples) + (c.outputs + 1) * Stride(c);
   return floats * sizeof(float) + 5 * kAlignment;
 }
 
@@ -183,14 +168,12 @@ std::size_t Rbf::WorkspaceBytes(const RbfShape& s) noexcept {
 Result<> Rbf::Reserve(const RbfShape& capacity, Arena& arena) noexcept {
   if (capacity.samples == 0 || capacity.inputs == 0 || capacity.outputs == 0)
     return Errc::kInvalidArgument;
-  const std::size_t samples = Padded(capacity.samples, kLanes);
-  const std::size_t outputs = OutputStride(capacity.outputs);
   origin_ = MakeFloats(arena, capacity.inputs);
-  centres_ = MakeFloats(arena, capacity.inputs * samples);
-  weights_ = MakeFloats(arena, (capacity.samples + capacity.tail_size()) * outputs);
-  phi_ = MakeFloats(arena, samples);
-  sums_ = MakeFloats(arena, outputs);
-  if (origin_.empty() || centres_.empty() || weights_.empty() || phi_.empty() || sums_.empty())
+  centres_ = MakeFloats(arena, capacity.inputs * Padded(capacity.samples));
+  weights_ = MakeFloats(arena, capacity.outputs * Stride(capacity));
+  terms_ = MakeFloats(arena, Stride(capacity));
+  point_ = MakeFloats(arena, capacity.inputs);
+  if (origin_.empty() || centres_.empty() || weights_.empty() || terms_.empty() || point_.empty())
     return Errc::kFull;
   capacity_ = capacity;
   shape_ = {};
@@ -293,46 +276,42 @@ Result<> Rbf::ChooseEpsilon(const RbfConfig& config, Problem& problem) const noe
 void Rbf::Store(const Problem& problem) noexcept {
   shape_ = problem.shape;
   epsilon_ = problem.epsilon;
-  sample_stride_ = Padded(shape_.samples, kLanes);
-  output_stride_ = OutputStride(shape_.outputs);
+  tail_at_ = Padded(shape_.samples);
+  stride_ = Stride(shape_);
   std::ranges::fill(centres_, 0.0F);
   std::ranges::fill(weights_, 0.0F);
   for (std::size_t i = 0; i < shape_.inputs; ++i) {
     origin_[i] = static_cast<float>(problem.mean[i]);
     for (std::size_t s = 0; s < shape_.samples; ++s)
-      centres_[i * sample_stride_ + s] = static_cast<float>(epsilon_ * problem.Input(s, i));
+      centres_[(s / kBlock * shape_.inputs + i) * kBlock + s % kBlock] =
+          static_cast<float>(epsilon_ * problem.Input(s, i));
   }
   for (std::size_t row = 0; row < problem.size(); ++row) {
+    const bool is_tail = row >= shape_.samples;
+    const std::size_t at = is_tail ? tail_at_ + row - shape_.samples : row;
     // Evaluate works in units of 1 / epsilon; the tail's linear columns are brought there too.
     const double scale = row > shape_.samples ? 1.0 / epsilon_ : 1.0;
     for (std::size_t o = 0; o < shape_.outputs; ++o)
-      weights_[row * output_stride_ + o] =
+      weights_[o * stride_ + at] =
           static_cast<float>(scale * problem.weights[row * shape_.outputs + o]);
   }
 }
 
 void Rbf::Evaluate(std::span<const float> x, std::span<float> y) const noexcept {
-  const std::size_t n = shape_.samples;
-  if (n == 0) {
+  if (shape_.samples == 0) {
     std::ranges::fill(y, 0.0F);
     return;
   }
-  float* phi = phi_.data();
-  float* sums = sums_.data();
-  std::fill_n(phi, sample_stride_, 0.0F);
-  std::fill_n(sums, output_stride_, 0.0F);
-  const float* tail = weights_.data() + n * output_stride_;
-  if (shape_.tail != Tail::kNone) std::copy_n(tail, output_stride_, sums);
-  for (std::size_t i = 0; i < shape_.inputs; ++i) {
-    const float u = epsilon_ * (x[i] - origin_[i]);
-    AddSquaredDifferences(u, centres_.data() + i * sample_stride_, phi, sample_stride_);
-    if (shape_.tail == Tail::kLinear)
-      AddScaled(u, tail + (i + 1) * output_stride_, sums, output_stride_);
-  }
-  ApplyKernel(kernel_, phi, sample_stride_);
-  for (std::size_t s = 0; s < n; ++s)
-    AddScaled(phi[s], weights_.data() + s * output_stride_, sums, output_stride_);
-  std::copy_n(sums, shape_.outputs, y.data());
+  for (std::size_t i = 0; i < shape_.inputs; ++i) point_[i] = epsilon_ * (x[i] - origin_[i]);
+  float* terms = terms_.data();
+  for (std::size_t s = 0; s < tail_at_; s += kBlock)
+    SquaredDistances(point_.data(), centres_.data() + s * shape_.inputs, shape_.inputs, terms + s);
+  ApplyKernel(kernel_, terms, tail_at_);
+  std::fill(terms + tail_at_, terms + stride_, 0.0F);
+  if (shape_.tail != Tail::kNone) terms[tail_at_] = 1;
+  if (shape_.tail == Tail::kLinear) std::copy_n(point_.data(), shape_.inputs, terms + tail_at_ + 1);
+  for (std::size_t o = 0; o < shape_.outputs; ++o)
+    y[o] = DotProduct(terms, weights_.data() + o * stride_, stride_);
 }
 
 }  // namespace facewire::rbf

@@ -90,13 +90,14 @@ class Rbf {
   RbfShape shape_;  // of the last Fit; samples == 0: none
   Kernel kernel_ = Kernel::kMultiquadric;
   float epsilon_ = 1;
-  std::size_t sample_stride_ = 0;  // samples and outputs padded to whole vectors
-  std::size_t output_stride_ = 0;
+  // What Evaluate multiplies with the weights: phi of every sample, then the tail's 1 and inputs,
+  // each part padded with zeros to whole blocks.
+  std::size_t tail_at_ = 0, stride_ = 0;
   std::span<float> origin_;   // inputs: mean of the samples, subtracted for precision
-  std::span<float> centres_;  // inputs x sample_stride_, in units of 1 / epsilon
-  std::span<float> weights_;  // (samples + tail) x output_stride_
-  std::span<float> phi_;      // sample_stride_: of the frame at hand
-  std::span<float> sums_;     // output_stride_
+  std::span<float> centres_;  // blocks of samples x inputs x kBlock, in units of 1 / epsilon
+  std::span<float> weights_;  // outputs x stride_
+  std::span<float> terms_;    // stride_: of the point at hand
+  std::span<float> point_;    // inputs: that point, in units of 1 / epsilon
 };
 
 }  // namespace facewire::rbf

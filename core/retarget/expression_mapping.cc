@@ -82,6 +82,14 @@ std::size_t RegionWorkspaceBytes(const RegionConfig& region, std::size_t samples
 
 }  // namespace
 
+Result<> ExpressionMapping::Check(const Training& t) noexcept {
+  if (t.markers.size() > kMaxMarkers || t.signals.size() > kMaxSignals ||
+      t.regions.size() > kMaxRegions || t.sample_count() > kMaxTrainingSamples)
+    return Errc::kFull;
+  if (!IsValid(t)) return Errc::kInvalidArgument;
+  return {};
+}
+
 std::size_t ExpressionMapping::RequiredBytes(const Training& training) noexcept {
   std::size_t bytes = 0;
   for (const RegionConfig& region : training.regions)
@@ -120,10 +128,8 @@ Result<> ExpressionMapping::Configure(const Training& t, Arena& arena,
                                       std::span<std::byte> workspace, TrainingReport& report,
                                       std::span<float> leave_one_out) noexcept {
   report = {};
-  if (t.markers.size() > kMaxMarkers || t.signals.size() > kMaxSignals ||
-      t.regions.size() > kMaxRegions || t.sample_count() > kMaxTrainingSamples)
-    return Errc::kFull;
-  if (!IsValid(t) || (!leave_one_out.empty() && leave_one_out.size() != t.targets.size()))
+  if (auto checked = Check(t); !checked) return checked;
+  if (!leave_one_out.empty() && leave_one_out.size() != t.targets.size())
     return Errc::kInvalidArgument;
   if (auto taken = TakeNames(t); !taken) return taken;
   average_user_ = t.average_user;

@@ -62,6 +62,9 @@ struct TrainingReport {
 // The paper's section 6: marker configuration -> every parameter of the rig, from example pairs.
 class ExpressionMapping {
  public:
+  // What Configure would say about the training before it solves anything; the two below are only
+  // meant for trainings that pass.
+  static Result<> Check(const Training& training) noexcept;
   // Bytes of arena that Configure needs, and of workspace that it needs only during the call.
   static std::size_t RequiredBytes(const Training& training) noexcept;
   static std::size_t WorkspaceBytes(const Training& training) noexcept;

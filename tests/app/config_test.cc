@@ -20,7 +20,7 @@ using ::testing::StartsWith;
 std::string Complaint(const std::string& text) {
   const Scratch scratch;
   const auto file = scratch.Write("facewire.toml", text);
-  const std::string what = BadInputOf([&] { (void)LoadConfig(file); });
+  const std::string what = ProblemsOf([&] { (void)LoadConfig(file); });
   return std::regex_replace(what, std::regex(file.string()), "F");
 }
 
@@ -85,9 +85,9 @@ TEST(LoadConfig, GivesThePlaceOfASyntaxError) {
 
 TEST(LoadConfig, SaysWhenThereIsNoFile) {
   const Scratch scratch;
-  EXPECT_THAT(BadInputOf([&] { (void)LoadConfig(scratch / "none.toml"); }),
+  EXPECT_THAT(ProblemsOf([&] { (void)LoadConfig(scratch / "none.toml"); }),
               HasSubstr("none.toml: cannot be read"));
-  EXPECT_THAT(BadInputOf([&] { (void)LoadConfig(scratch / ""); }), HasSubstr("is a folder"));
+  EXPECT_THAT(ProblemsOf([&] { (void)LoadConfig(scratch / ""); }), HasSubstr("is a folder"));
 }
 
 TEST(LoadConfig, ResolvesPathsAgainstTheFolderOfTheFile) {

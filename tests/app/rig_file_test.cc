@@ -18,7 +18,7 @@ const std::vector<std::string> kSignals = {"jawOpen", "eyeBlinkLeft"};
 std::string Complaint(const std::string& text) {
   const Scratch scratch;
   const auto file = scratch.Write("rig.toml", text);
-  const std::string what = BadInputOf([&] { (void)LoadRig(file, &kSignals); });
+  const std::string what = ProblemsOf([&] { (void)LoadRig(file, &kSignals); });
   return std::regex_replace(what, std::regex(file.string()), "F");
 }
 

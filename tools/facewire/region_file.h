@@ -9,7 +9,7 @@
 
 namespace facewire::tools {
 
-// How a face is divided for training (described in tools/facewire/README.md), for the markers and
+// How a face is divided for training (described in tools/facewire/train.md), for the markers and
 // signals of `training`. What a region does not set comes from `defaults`.
 // BadInput, one line with file and line: not TOML, unknown keys, markers, targets or kernels,
 // numbers out of range, a target in no region or in two.

@@ -1,0 +1,373 @@
+// The program as its users meet it: started with real footage and networks, listened to over a
+// pseudo-terminal, asked by signals.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <optional>
+
+#include "core/wire/decoder.h"
+#include "core/wire/encoder.h"
+#include "core/wire/pose.h"
+#include "core/wire/rig_description.h"
+#include "hal/pty/pty_port.h"
+#include "tests/app/process.h"
+#include "tests/app/scratch.h"
+
+namespace facewire::app {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const char* const kRig = FACEWIRE_SOURCE_DIR "/app/share/otto.toml";
+const char* const kProfile = FACEWIRE_SOURCE_DIR "/app/share/average.profile";
+
+// A configuration of the mock hardware. `extra` comes behind it.
+std::string Configuration(const std::string& extra = "", const std::string& rig = kRig,
+                          const std::string& profile = kProfile) {
+  return "[camera]\ndevice = \"replay\"\n[camera.replay]\nfile = \"" FACEWIRE_ASSETS
+         "/footage/franck.mp4\"\nmemory_mib = 64\nloop = \"ping-pong\"\n"
+         "[tracker]\nnetworks = \"" FACEWIRE_ASSETS "/networks\"\n[character]\nrig = \"" +
+         rig + "\"\nprofile = \"" + profile +
+         "\"\n[neutral]\nfolder = \"state\"\nauto_s = 1.0\n[host]\nline = \"pty:line\"\n"
+         "[states]\nstart_ramp_ms = 200\nease_ms = 300\n" +
+         extra;
+}
+
+// What a host hears.
+class Listener {
+ public:
+  explicit Listener(const std::filesystem::path& link) : port_(link.string()) {}
+
+  // Listens until `done` says so; false when that takes too long.
+  bool Until(const std::function<bool()>& done, seconds limit = seconds(60)) {
+    const auto end = std::chrono::steady_clock::now() + limit;
+    while (!done()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      Read();
+    }
+    return true;
+  }
+  void Send(wire::CommandCode code) {
+    std::array<std::byte, wire::kCommandFrameBytes> frame;
+    const auto bytes = encoder_.Encode(wire::Command{.id = 5, .code = code}, frame);
+    ASSERT_TRUE(bytes);
+    ASSERT_TRUE(port_.Write(*bytes, seconds(1)));
+  }
+
+  wire::RigCollector rig;
+  std::vector<wire::Pose> poses;
+  std::vector<wire::Status> statuses;
+  std::vector<wire::Acknowledgement> answers;
+  bool hung_up = false;
+  const wire::LinkStats& stats() const { return decoder_.stats(); }
+  ServiceState state() const {
+    return poses.empty() ? ServiceState::kStarting : poses.back().state;
+  }
+
+ private:
+  void Read() {
+    if (!open_) {
+      open_ = port_.Open().has_value();
+      if (!open_) {
+        std::this_thread::sleep_for(milliseconds(10));
+        return;
+      }
+    }
+    std::array<std::byte, 4096> buffer;
+    const auto read = port_.Read(buffer, milliseconds(100));
+    if (!read) {
+      hung_up = hung_up || read.error() == Errc::kDisconnected;
+      if (hung_up) std::this_thread::sleep_for(milliseconds(10));
+      return;
+    }
+    std::span<const std::byte> rest = std::span(buffer).first(*read);
+    for (;;) {
+      const auto got = decoder_.Next(rest);
+      if (!got) {
+        if (got.error() == Errc::kNotReady) return;
+        continue;
+      }
+      rig.Add(got->message);
+      if (const auto* pose = std::get_if<wire::Pose>(&got->message)) poses.push_back(*pose);
+      if (const auto* s = std::get_if<wire::Status>(&got->message)) statuses.push_back(*s);
+      if (const auto* a = std::get_if<wire::Acknowledgement>(&got->message)) answers.push_back(*a);
+    }
+  }
+
+  hal::pty::PtyPort port_;
+  bool open_ = false;
+  wire::Decoder decoder_;
+  wire::Encoder encoder_;
+};
+
+class Facewired {
+ public:
+  explicit Facewired(const std::string& configuration) {
+    scratch.Write("facewire.toml", configuration);
+  }
+  Process Start(std::vector<std::string> options = {},
+                const std::vector<std::pair<std::string, std::string>>& environment = {}) {
+    options.insert(options.begin(), {FACEWIRED, "--config", (scratch / "facewire.toml").string()});
+    return Process(options, scratch / "out", scratch / "err", environment);
+  }
+  Scratch scratch;
+};
+
+TEST(Facewired, FollowsFootageOnAPseudoTerminalAndEndsAtNeutral) {
+  Facewired f(Configuration());
+  Process process =
+      f.Start({"--fake", "--seconds", "4", "--stats-json", (f.scratch / "stats.json").string()});
+  Listener host(f.scratch / "line");
+  EXPECT_TRUE(host.Until([&] { return host.hung_up; }));
+  EXPECT_EQ(process.Wait(), 0) << process.err();
+  ASSERT_TRUE(host.rig.Complete());
+  EXPECT_EQ(host.rig.rig().name.view(), "otto");
+  EXPECT_EQ(host.stats().Damaged(), 0U);
+  EXPECT_GE(host.statuses.size(), 3U);
+  EXPECT_GE(std::ranges::count(host.poses, ServiceState::kTracking, &wire::Pose::state), 20);
+  ASSERT_GE(host.poses.size(), 10U);
+  const RigPose last = wire::ValuesOf(host.poses.back(), host.rig.rig());
+  for (std::size_t i = 0; i < last.count; ++i) {
+    const Channel& channel = host.rig.rig().channels[i];
+    EXPECT_NEAR(last.values[i], channel.neutral, 1e-3 * (channel.max - channel.min))
+        << channel.name.view();
+  }
+  const std::string stats = ReadAll(f.scratch / "stats.json");
+  EXPECT_THAT(stats, HasSubstr("\"frames\": "));
+  EXPECT_THAT(stats, HasSubstr("\"resident_bytes\": "));
+  EXPECT_THAT(process.out(), HasSubstr("latency p50"));
+  EXPECT_FALSE(std::filesystem::exists(f.scratch / "line")) << "the link goes with the program";
+}
+
+TEST(Facewired, EndsWithTheRecordingWhenItDoesNotLoop) {
+  Facewired f("[camera]\ndevice = \"replay\"\n[camera.replay]\nfile = \"" FACEWIRE_ASSETS
+              "/footage/franck.mp4\"\nmemory_mib = 16\npace = \"fast\"\n[tracker]\n"
+              "networks = \"" FACEWIRE_ASSETS "/networks\"\n[character]\nrig = \"" +
+              std::string(kRig) + "\"\nprofile = \"" + kProfile +
+              "\"\n[neutral]\nfolder = \"state\"\n[host]\nline = \"none\"\n");
+  Process process = f.Start();
+  EXPECT_EQ(process.Wait(), 0) << process.err();
+  EXPECT_THAT(process.out(), HasSubstr("0 dropped"));
+}
+
+TEST(Facewired, EasesToNeutralOnSigterm) {
+  Facewired f(Configuration());
+  Process process = f.Start({"--fake"});
+  Listener host(f.scratch / "line");
+  ASSERT_TRUE(host.Until([&] { return host.state() == ServiceState::kTracking; })) << process.err();
+  process.Signal(SIGTERM);
+  EXPECT_TRUE(host.Until([&] { return host.hung_up; }));
+  EXPECT_EQ(process.Wait(), 0);
+  EXPECT_EQ(host.state(), ServiceState::kEasing);
+  EXPECT_GE(std::ranges::count(host.poses, ServiceState::kEasing, &wire::Pose::state), 10);
+}
+
+TEST(Facewired, ReloadsOnSighupAndKeepsTheOldRigWhenTheNewOneIsBad) {
+  Facewired f(Configuration("", "rig.toml"));
+  const std::string rig = ReadAll(kRig);
+  f.scratch.Write("rig.toml", rig);
+  Process process = f.Start({"--fake"});
+  Listener host(f.scratch / "line");
+  ASSERT_TRUE(host.Until([&] { return host.rig.Complete() && !host.poses.empty(); }))
+      << process.err();
+  const std::uint32_t first = host.poses.back().rig_id;
+
+  f.scratch.Write("rig.toml", rig + "\n[[parameter]]\nname = \"noSuchSignal\"\n");
+  process.Signal(SIGHUP);
+  EXPECT_TRUE(host.Until([&] { return process.err().find("not reloaded") != std::string::npos; }));
+  EXPECT_THAT(process.err(), HasSubstr("no signal \"noSuchSignal\""));
+  const std::size_t before = host.poses.size();
+  ASSERT_TRUE(host.Until([&] { return host.poses.size() > before + 3; })) << "it runs on";
+  EXPECT_EQ(host.poses.back().rig_id, first);
+
+  f.scratch.Write("rig.toml", rig + "\n[[parameter]]\nname = \"glow\"\ndrive = { jawOpen = 1 }\n");
+  process.Signal(SIGHUP);
+  ASSERT_TRUE(host.Until([&] { return host.poses.back().rig_id != first; })) << process.err();
+  ASSERT_TRUE(host.Until(
+      [&] { return host.rig.Complete() && host.rig.rig_id() == host.poses.back().rig_id; }));
+  EXPECT_TRUE(host.rig.rig().FindChannel("glow"));
+  ASSERT_TRUE(host.Until([&] { return host.state() == ServiceState::kTracking; }));
+  process.Signal(SIGTERM);
+  EXPECT_EQ(process.Wait(), 0);
+}
+
+TEST(Facewired, TakesAndKeepsANeutralOnCommand) {
+  Facewired f(Configuration());
+  Process process = f.Start({"--fake"});
+  Listener host(f.scratch / "line");
+  ASSERT_TRUE(host.Until([&] { return host.state() == ServiceState::kTracking; })) << process.err();
+  // A performer who moves is refused; he sits still sooner or later.
+  bool kept = false;
+  for (int i = 0; i < 10 && !kept; ++i) {
+    const std::size_t answers = host.answers.size();
+    host.Send(wire::CommandCode::kCalibrateNeutral);
+    ASSERT_TRUE(host.Until([&] { return host.answers.size() > answers; }));
+    kept = host.answers.back().result == wire::CommandResult::kOk;
+    EXPECT_EQ(std::filesystem::exists(f.scratch / "state/performer.neutral"), kept);
+  }
+  EXPECT_TRUE(kept);
+}
+
+TEST(Facewired, TellsSystemdHowItFares) {
+  Facewired f(Configuration());
+  const std::string path = (f.scratch / "notify").string();
+  const int notify = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  ASSERT_GE(notify, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  ASSERT_LT(path.size(), sizeof(address.sun_path));
+  std::memcpy(address.sun_path, path.c_str(), path.size());
+  ASSERT_EQ(::bind(notify, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+  const timeval limit{60, 0};
+  ::setsockopt(notify, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof(limit));
+  std::string heard;
+  const auto until = [&](const char* message) {
+    std::array<char, 512> buffer;
+    while (heard.find(message) == std::string::npos) {
+      const ssize_t size = ::recv(notify, buffer.data(), buffer.size(), 0);
+      if (size <= 0) return false;
+      heard += std::string(buffer.data(), static_cast<std::size_t>(size)) + "\n";
+    }
+    return true;
+  };
+  Process process = f.Start({"--fake"}, {{"NOTIFY_SOCKET", path}, {"WATCHDOG_USEC", "400000"}});
+  EXPECT_TRUE(until("READY=1")) << process.err();
+  EXPECT_TRUE(until("WATCHDOG=1\nWATCHDOG=1") || until("WATCHDOG=1"));
+  EXPECT_TRUE(until("STATUS=tracking"));
+  process.Signal(SIGHUP);
+  EXPECT_TRUE(until("RELOADING=1\nMONOTONIC_USEC="));
+  process.Signal(SIGTERM);
+  EXPECT_TRUE(until("STOPPING=1"));
+  EXPECT_EQ(process.Wait(), 0);
+  ::close(notify);
+}
+
+TEST(Facewired, ReadOnlyNeverMakesALine) {
+  Facewired f(Configuration());
+  Process process = f.Start({"--fake", "--read-only", "--seconds", "1"});
+  EXPECT_EQ(process.Wait(), 0) << process.err();
+  EXPECT_THAT(process.out(), HasSubstr(" 0 poses sent"));
+}
+
+TEST(Facewired, ChecksWithoutTouchingADevice) {
+  Facewired f(
+      "[camera]\ndevice = \"v4l2:/dev/no-such-camera\"\n[tracker]\n"
+      "networks = \"" FACEWIRE_ASSETS "/networks\"\n[character]\nrig = \"" +
+      std::string(kRig) + "\"\nprofile = \"" + kProfile +
+      "\"\n[host]\nline = \"serial:/dev/no-such-port\"\n");
+  Process check = f.Start({"--check", "--memory"});
+  EXPECT_EQ(check.Wait(), 0) << check.err();
+  EXPECT_THAT(check.out(), HasSubstr("ok\n"));
+  EXPECT_THAT(check.out(), HasSubstr("otto: "));
+  EXPECT_THAT(check.out(), HasSubstr("tracker "));
+  EXPECT_THAT(check.out(), HasSubstr("total "));
+  Process run = f.Start();
+  EXPECT_EQ(run.Wait(), 2);
+  EXPECT_THAT(run.err(), HasSubstr("/dev/no-such-port"));
+}
+
+struct Row {
+  const char* name;
+  std::function<void(Facewired&)> spoil;
+  const char* complaint;
+};
+
+TEST(Facewired, RefusesBadInputWithOneLineAndExitCodeTwo) {
+  const auto with = [](const std::string& text) {
+    return [text](Facewired& f) { f.scratch.Write("facewire.toml", text); };
+  };
+  const auto networks = [](const std::string& folder) {
+    return "[camera]\ndevice = \"replay\"\n[camera.replay]\nfile = \"x.mp4\"\n[tracker]\nnetworks "
+           "= \"" +
+           folder + "\"\n[character]\nrig = \"" + std::string(kRig) + "\"\nprofile = \"" +
+           kProfile + "\"\n";
+  };
+  const std::string good = FACEWIRE_ASSETS "/networks";
+  const std::vector<Row> table = {
+      {"unknown key", with("[camera]\nwith = 3\n"), "unknown key \"camera.with\""},
+      {"out of range", with("[states]\nhold_ms = -4\n"), "states.hold_ms: -4 is out of range"},
+      {"no networks", with(networks("/nowhere")), "/nowhere"},
+      {"truncated network",
+       [&](Facewired& f) {
+         std::filesystem::create_directory(f.scratch / "n");
+         for (const auto& file : std::filesystem::directory_iterator(good)) {
+           std::filesystem::copy(file, f.scratch / "n");
+         }
+         std::filesystem::resize_file(f.scratch / "n/face_detection_short_range.tflite", 1000);
+         f.scratch.Write("facewire.toml", networks("n"));
+       },
+       "face_detection_short_range.tflite"},
+      {"rig with a bone of an unknown landmark",
+       [&](Facewired& f) {
+         f.scratch.Write("rig.toml",
+                         "name = \"r\"\n[[bone]]\nname = \"b\"\nlandmark = \"elbow\"\n");
+         f.scratch.Write("facewire.toml", Configuration("", "rig.toml"));
+       },
+       "rig.toml:4:12: bone[0].landmark: no landmark \"elbow\""},
+      {"profile that is none",
+       [&](Facewired& f) {
+         f.scratch.Write("p.profile", "not a profile, but long enough to look like a file of one");
+         f.scratch.Write("facewire.toml", Configuration("", kRig, "p.profile"));
+       },
+       "p.profile"},
+      {"video that is none",
+       [&](Facewired& f) {
+         f.scratch.Write("x.mp4", "not a video");
+         f.scratch.Write("facewire.toml", networks(good) + "[host]\nline = \"none\"\n");
+       },
+       "x.mp4 is not a video"},
+      {"no video", with(networks(good) + "[host]\nline = \"none\"\n"), "there is no video"},
+      {"no port", with(networks(good) + "[host]\nline = \"serial:/dev/no-port\"\n"),
+       "there is no port /dev/no-port"},
+  };
+  for (const Row& row : table) {
+    Facewired f("");
+    row.spoil(f);
+    Process process = f.Start({"--stats-json", (f.scratch / "stats.json").string()});
+    EXPECT_EQ(process.Wait(), 2) << row.name << ": " << process.err();
+    const std::string err = process.err();
+    EXPECT_THAT(err, HasSubstr(row.complaint)) << row.name;
+    EXPECT_EQ(std::ranges::count(err, '\n'), 1) << row.name << ": " << err;
+    EXPECT_EQ(process.out(), "") << row.name;
+    EXPECT_FALSE(std::filesystem::exists(f.scratch / "stats.json")) << row.name;
+    EXPECT_FALSE(std::filesystem::exists(f.scratch / "line")) << row.name;
+    EXPECT_FALSE(std::filesystem::exists(f.scratch / "state")) << row.name;
+  }
+}
+
+TEST(Facewired, ReportsWhatIsWrongWithEveryFileAtOnce) {
+  Facewired f(Configuration("", "no-rig.toml", "no.profile"));
+  Process process = f.Start({"--check"});
+  EXPECT_EQ(process.Wait(), 2);
+  EXPECT_THAT(process.err(), HasSubstr("no-rig.toml"));
+  EXPECT_THAT(process.err(), HasSubstr("no.profile"));
+}
+
+TEST(Facewired, RefusesBadUsage) {
+  Scratch scratch;
+  for (const std::vector<std::string>& options : {std::vector<std::string>{},
+                                                  {"--config"},
+                                                  {"--nonsense"},
+                                                  {"--config", "x", "--seconds", "-1"}}) {
+    std::vector<std::string> command = {FACEWIRED};
+    command.insert(command.end(), options.begin(), options.end());
+    Process process(command, scratch / "out", scratch / "err");
+    EXPECT_EQ(process.Wait(), 2);
+    EXPECT_EQ(std::ranges::count(process.err(), '\n'), 1) << process.err();
+  }
+  Process version({FACEWIRED, "--version"}, scratch / "out", scratch / "err");
+  EXPECT_EQ(version.Wait(), 0);
+  EXPECT_THAT(version.out(), HasSubstr("facewired "));
+}
+
+}  // namespace
+}  // namespace facewire::app

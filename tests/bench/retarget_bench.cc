@@ -1,0 +1,87 @@
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "app/profile_file.h"
+#include "core/rbf/rbf.h"
+#include "core/retarget/retargeter.h"
+
+namespace facewire {
+namespace {
+
+// The default profile on the face it was trained on, wobbling a little.
+struct Subject {
+  std::unique_ptr<app::Profile> profile =
+      app::LoadProfile(FACEWIRE_SOURCE_DIR "/app/share/average.profile");
+  Rig rig;
+  std::vector<std::byte> block = std::vector<std::byte>(retarget::Retargeter::RequiredBytes());
+  std::unique_ptr<retarget::Retargeter> retargeter = std::make_unique<retarget::Retargeter>();
+  std::unique_ptr<FacePose> face = std::make_unique<FacePose>();
+
+  Subject() {
+    Arena arena(block);
+    if (!retargeter->Configure(rig, &profile->mapping(), arena)) std::abort();
+    face->count = kMaxLandmarks;
+    const auto indices = profile->mapping().point_indices();
+    for (std::size_t i = 0; i < indices.size(); ++i)
+      face->points_cm[indices[i]] = profile->mapping().neutral_cm()[i];
+  }
+  retarget::Neutral Neutral() const {
+    return {face->count, face->points_cm, face->camera_R_head, face->camera_t_head_cm};
+  }
+};
+
+void RetargeterUpdate(benchmark::State& state) {
+  Subject subject;
+  if (!subject.retargeter->SetNeutral(subject.Neutral())) state.SkipWithError("neutral");
+  float t = 0;
+  for (auto _ : state) {
+    subject.face->points_cm[386].y += 0.1F * std::sin(t += 0.1F);
+    benchmark::DoNotOptimize(subject.retargeter->Update(*subject.face));
+  }
+}
+BENCHMARK(RetargeterUpdate)->Unit(benchmark::kMicrosecond);
+
+void RetargeterSetNeutral(benchmark::State& state) {
+  Subject subject;
+  const auto neutral = subject.Neutral();
+  for (auto _ : state)
+    if (!subject.retargeter->SetNeutral(neutral)) state.SkipWithError("neutral");
+}
+BENCHMARK(RetargeterSetNeutral)->Unit(benchmark::kMillisecond);
+
+void LoadDefaultProfile(benchmark::State& state) {
+  for (auto _ : state)
+    benchmark::DoNotOptimize(app::LoadProfile(FACEWIRE_SOURCE_DIR "/app/share/average.profile"));
+}
+BENCHMARK(LoadDefaultProfile)->Unit(benchmark::kMillisecond);
+
+// 600 samples of 300 inputs, 51 outputs: a whole face without regions or axes.
+void RbfEvaluateLarge(benchmark::State& state) {
+  const rbf::RbfShape shape{600, 300, 51, rbf::Tail::kConstant};
+  std::vector<std::byte> block(rbf::Rbf::RequiredBytes(shape));
+  std::vector<std::byte> workspace(rbf::Rbf::WorkspaceBytes(shape));
+  std::vector<float> samples(shape.samples * shape.inputs);
+  std::vector<float> targets(shape.samples * shape.outputs);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    samples[i] = std::sin(static_cast<float>(i * i % 10007));
+  for (std::size_t i = 0; i < targets.size(); ++i)
+    targets[i] = std::cos(static_cast<float>(i * i % 7919));
+  Arena arena(block);
+  rbf::Rbf rbf;
+  rbf::FitReport report;
+  const rbf::RbfConfig config{.tail = shape.tail, .epsilon = 0.1F, .smoothing = 0.1F};
+  if (!rbf.Reserve(shape, arena) || !rbf.Fit(config, shape, samples, targets, workspace, report))
+    state.SkipWithError("fit");
+  std::vector<float> y(shape.outputs);
+  for (auto _ : state) {
+    rbf.Evaluate(std::span<const float>(samples).first(shape.inputs), y);
+    benchmark::DoNotOptimize(y.data());
+  }
+}
+BENCHMARK(RbfEvaluateLarge)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace facewire

@@ -1,0 +1,174 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "app/profile_file.h"
+#include "tests/app/scratch.h"
+#include "tools/facewire/commands.h"
+
+namespace facewire::tools {
+namespace {
+
+using app::BadInputOf;
+using app::Scratch;
+using testing::HasSubstr;
+
+constexpr const char* kMarkers =
+    "lip_x,lip_y,lip_z,lid_x,lid_y,lid_z\n"
+    "0,0,0,3,3,0\n"
+    "0,-1,0,3,3,0\n"
+    "0,-2,0,3,3,0\n"
+    "0,0,0,3,2,0\n"
+    "0,-1,0,3,2,0\n";
+constexpr const char* kTargets = "frame,jaw_deg,blink\n0,0,0\n1,10,0\n2,20,0\n3,0,1\n4,10,1\n";
+
+// Files of one training, and a call of the command.
+struct Context {
+  Scratch scratch;
+  std::string markers = kMarkers, targets = kTargets;
+  std::string output;
+
+  void Train(std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments = {"train",
+                                          "--markers",
+                                          scratch.Write("m.csv", markers).string(),
+                                          "--targets",
+                                          scratch.Write("t.csv", targets).string(),
+                                          "--out",
+                                          Out()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    std::ranges::reverse(arguments);
+    CLI::App facewire;
+    AddTrain(facewire);
+    testing::internal::CaptureStdout();
+    try {
+      facewire.parse(arguments);
+    } catch (...) {
+      output = testing::internal::GetCapturedStdout();
+      throw;
+    }
+    output = testing::internal::GetCapturedStdout();
+  }
+  std::string Out() const { return (scratch / "out.profile").string(); }
+  std::string Error(std::vector<std::string> more = {}) {
+    const std::string message = BadInputOf([&] { Train(std::move(more)); });
+    EXPECT_FALSE(std::filesystem::exists(Out())) << "nothing half-written may be left";
+    return message;
+  }
+  std::vector<float> At(std::vector<Point3> points) const {
+    const auto profile = app::LoadProfile(Out());
+    std::vector<float> signals(profile->mapping().signals().size());
+    profile->mapping().Evaluate(points, signals);
+    return signals;
+  }
+};
+
+TEST(Train, MakesAProfileThatGivesTheTargetsBack) {
+  Context c;
+  c.Train();
+  const auto signals = c.At({{0, -2, 0}, {3, 3, 0}});
+  EXPECT_NEAR(signals[0], 20, 1e-2);
+  EXPECT_NEAR(signals[1], 0, 1e-3);
+  EXPECT_NEAR(c.At({{0, -1, 0}, {3, 2, 0}})[0], 10, 1e-2);
+}
+
+TEST(Train, PrintsTheLeaveOneOutErrorOfEachTarget) {
+  Context c;
+  c.Train();
+  EXPECT_THAT(c.output, HasSubstr("leave-one-out"));
+  EXPECT_THAT(c.output, HasSubstr("\njaw_deg "));
+  EXPECT_THAT(c.output, HasSubstr("\nblink "));
+  EXPECT_THAT(c.output, testing::Not(HasSubstr("frame ")));
+}
+
+TEST(Train, KeepsTheChosenSettings) {
+  Context c;
+  c.Train({"--kernel", "gaussian", "--epsilon", "0.7", "--smoothing", "0.1", "--tail", "constant",
+           "--neutral", "3", "--average-user"});
+  const app::TrainingSet training = app::ReadTrainingSet(c.Out());
+  ASSERT_EQ(training.regions.size(), 1U);
+  EXPECT_EQ(training.regions[0].rbf.kernel, rbf::Kernel::kGaussian);
+  EXPECT_EQ(training.regions[0].rbf.tail, rbf::Tail::kConstant);
+  EXPECT_EQ(training.regions[0].rbf.epsilon, 0.7F);
+  EXPECT_EQ(training.regions[0].rbf.smoothing, 0.1F);
+  EXPECT_EQ(training.neutral_sample, 2U);
+  EXPECT_TRUE(training.average_user);
+}
+
+TEST(Train, WritesTheAutomaticEpsilonDownSoThatLoadingIsQuick) {
+  Context c;
+  c.Train();
+  EXPECT_GT(app::ReadTrainingSet(c.Out()).regions[0].rbf.epsilon, 0);
+}
+
+TEST(Train, RegionsKeepTheirMarkersApart) {
+  Context c;
+  const auto regions = c.scratch.Write("r.toml",
+                                       "[[region]]\nname = \"mouth\"\npoints = [\"lip\"]\n"
+                                       "targets = [\"jaw_deg\"]\nsmoothing = 0.01\n"
+                                       "[[region]]\nname = \"eye\"\n"
+                                       "distances = [[\"lip\", \"lid\"]]\npoints = [\"lid\"]\n"
+                                       "targets = [\"blink\"]\nsmoothing = 0.01\naxes = 2\n");
+  c.Train({"--regions", regions.string(), "--epsilon", "0.5", "--tail", "constant"});
+  EXPECT_EQ(c.At({{0, -1, 0}, {3, 3, 0}})[0], c.At({{0, -1, 0}, {9, 9, 9}})[0]);
+}
+
+TEST(Train, BadInputIsOneLineAndLeavesNothing) {
+  const auto with = [](const char* markers, const char* targets,
+                       std::vector<std::string> more = {}) {
+    Context c;
+    if (markers != nullptr) c.markers = markers;
+    if (targets != nullptr) c.targets = targets;
+    return c.Error(std::move(more));
+  };
+  EXPECT_THAT(with("a_x,a_y,a_z\n0,0,0\n1,0\n", nullptr), HasSubstr("m.csv:3: 2 columns"));
+  EXPECT_THAT(with(nullptr, "a\n1\n2\n3\n4\noops\n"),
+              HasSubstr("t.csv:6: column 1: \"oops\" is not a finite number"));
+  EXPECT_THAT(with(nullptr, "a\n1\n2\n"), HasSubstr("t.csv: 2 rows, but "));
+  EXPECT_THAT(with("", nullptr), HasSubstr("no columns"));
+  EXPECT_THAT(with("a_x,a_y,a_z\n0,0,0\n1,0,0\n2,0,0\n1,0,0\n5,0,0\n", nullptr),
+              HasSubstr("rows 2 and 4 have the same markers"));
+  EXPECT_THAT(with(nullptr, nullptr, {"--kernel", "sinc"}), HasSubstr("one of multiquadric"));
+  EXPECT_THAT(with(nullptr, nullptr, {"--tail", "cubic"}), HasSubstr("one of none, constant"));
+  EXPECT_THAT(with(nullptr, nullptr, {"--epsilon", "-1"}), HasSubstr("neither auto nor"));
+  EXPECT_THAT(with(nullptr, nullptr, {"--smoothing", "-1"}), HasSubstr("--smoothing: "));
+  EXPECT_THAT(with(nullptr, nullptr, {"--neutral", "6"}), HasSubstr("rows 1 to 5"));
+  EXPECT_THAT(with(nullptr, nullptr, {"--tail", "linear"}), HasSubstr("linear tail"));
+  EXPECT_THAT(with(nullptr, nullptr, {"--regions", "none.toml"}), HasSubstr("none.toml"));
+}
+
+TEST(Train, ABadRegionFileIsNamedWithItsLine) {
+  const auto with = [](const std::string& regions) {
+    Context c;
+    return c.Error({"--regions", c.scratch.Write("r.toml", regions).string()});
+  };
+  const std::string eye = "[[region]]\nname = \"eye\"\npoints = [\"lid\"]\ntargets = [\"blink\"]\n";
+  EXPECT_THAT(with("region = "), HasSubstr("r.toml:1: "));
+  EXPECT_THAT(with(""), HasSubstr("no regions"));
+  EXPECT_THAT(with("other = 1\n"), HasSubstr("r.toml:1: unknown key \"other\""));
+  EXPECT_THAT(with(eye + "colour = 1\n"), HasSubstr("r.toml:5: unknown key \"colour\""));
+  EXPECT_THAT(with(eye), HasSubstr("target \"jaw_deg\" is in 0 regions"));
+  EXPECT_THAT(with(eye + eye), HasSubstr("is in "));
+  EXPECT_THAT(with(eye + "origin = [\"nose\"]\n"),
+              HasSubstr("r.toml:5: there is no marker \"nose\""));
+  EXPECT_THAT(with(eye + "smoothing = -1\n"), HasSubstr("r.toml:5: smoothing"));
+  EXPECT_THAT(with(eye + "axes = 4\n"), HasSubstr("r.toml:5: axes"));
+  EXPECT_THAT(with(eye + "kernel = \"sinc\"\n"), HasSubstr("r.toml:5: \"sinc\""));
+  EXPECT_THAT(with("[[region]]\nname = \"x\"\ntargets = [\"blink\"]\n"), HasSubstr("needs points"));
+}
+
+TEST(Train, AnOldProfileStaysWhenTrainingFails) {
+  Context c;
+  c.Train();
+  const std::string before = Scratch::Read(c.Out());
+  c.targets = "a\n1\n";
+  EXPECT_THAT(BadInputOf([&] { c.Train(); }), HasSubstr("1 rows"));
+  EXPECT_EQ(Scratch::Read(c.Out()), before);
+}
+
+}  // namespace
+}  // namespace facewire::tools
