@@ -1,14 +1,17 @@
 #include "core/track/tracker.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -292,6 +295,20 @@ TEST(TrackerTest, TwoTrackersDoNotDisturbEachOther) {
     ASSERT_TRUE(b.Call(other[i]));
     EXPECT_EQ(MeanDistance(*face, *alone.Call(franck[i])), 0);
   }
+}
+
+TEST(TrackerTest, TrackersMayBeLoadedAtTheSameTime) {
+  // Each on a thread of its own, with its own arena.
+  std::array<bool, 4> found{};
+  std::vector<std::thread> threads;
+  for (bool& one : found) {
+    threads.emplace_back([&one] {
+      Context context;
+      one = context.Call(FirstFrame()).has_value();
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_THAT(found, testing::Each(true));
 }
 
 TEST(TrackerTest, TrackersCanComeAndGo) {
