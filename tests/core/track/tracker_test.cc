@@ -337,7 +337,7 @@ TEST_P(TrackerMemoryTest, LoadTakesExactlyWhatItAsksForAndUsesMostOfIt) {
     run = b == kUntouched ? run + 1 : 0;
     longest = std::max(longest, run);
   }
-  EXPECT_LT(longest, required / 5) << "RequiredBytes asks for too much";
+  EXPECT_LT(longest, required / 4) << "RequiredBytes asks for too much";
   EXPECT_GT(longest, required / 50) << "too little room for processors that pack weights wider";
 }
 
