@@ -20,7 +20,7 @@ constexpr int kRun = 64;
 static_assert(kDetectorSize % kRun == 0 && kLandmarkSize % kRun == 0);
 template <class T>
 using Run = std::array<T, kRun>;
-constexpr std::ptrdiff_t kRunFloats = 3 * kRun;
+constexpr std::ptrdiff_t kRunFloats = std::ptrdiff_t{3} * kRun;
 
 std::uint32_t Load16(const std::uint8_t* at) noexcept {
   std::uint16_t word = 0;
