@@ -129,16 +129,16 @@ Picture Picture::As(PixelFormat format, int padding, YuvEncoding encoding) const
     for (int x = 0; x < width; ++x, from += 3) {
       switch (format) {
         case PixelFormat::kBgr24:
-          std::copy_n(from, 3, &to[3 * x]);
+          std::copy_n(from, 3, to + std::ptrdiff_t{3} * x);
           break;
         case PixelFormat::kRgb24:
-          std::reverse_copy(from, from + 3, &to[3 * x]);
+          std::reverse_copy(from, from + 3, to + std::ptrdiff_t{3} * x);
           break;
         case PixelFormat::kGrey8:
           to[x] = ToByte(ToYuv(from, YuvEncoding::kBt601Full).y);
           break;
         case PixelFormat::kYuyv:
-          to[2 * x] = ToByte(ToYuv(from, encoding).y);
+          to[std::ptrdiff_t{2} * x] = ToByte(ToYuv(from, encoding).y);
           break;
         case PixelFormat::kNv12:
         case PixelFormat::kI420:
@@ -148,8 +148,8 @@ Picture Picture::As(PixelFormat format, int padding, YuvEncoding encoding) const
       if (x % 2 != 0 || y % block_h != 0) continue;
       const Yuv mean = MeanYuv(*this, x, y, 2, block_h, encoding);
       if (format == PixelFormat::kYuyv) {
-        to[2 * x + 1] = ToByte(mean.u);
-        to[2 * x + 3] = ToByte(mean.v);
+        to[std::ptrdiff_t{2} * x + 1] = ToByte(mean.u);
+        to[std::ptrdiff_t{2} * x + 3] = ToByte(mean.v);
       } else if (format == PixelFormat::kNv12) {
         out.row(1, y / 2)[x] = ToByte(mean.u);
         out.row(1, y / 2)[x + 1] = ToByte(mean.v);
@@ -187,7 +187,7 @@ Picture Paste(const Picture& inner, int width, int height, int x, int y) {
     if (j + y < 0 || j + y >= height) continue;
     for (int i = 0; i < from.width_px; ++i) {
       if (i + x < 0 || i + x >= width) continue;
-      std::copy_n(PixelAt(from, i, j), 3, &out.row(0, j + y)[3 * (i + x)]);
+      std::copy_n(PixelAt(from, i, j), 3, out.row(0, j + y) + std::ptrdiff_t{3} * (i + x));
     }
   }
   return out;
