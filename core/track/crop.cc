@@ -20,7 +20,7 @@ constexpr int kRun = 64;
 static_assert(kDetectorSize % kRun == 0 && kLandmarkSize % kRun == 0);
 template <class T>
 using Run = std::array<T, kRun>;
-constexpr std::ptrdiff_t kRunFloats = 3 * kRun;
+constexpr std::ptrdiff_t kRunFloats = std::ptrdiff_t{3} * kRun;
 
 std::uint32_t Load16(const std::uint8_t* at) noexcept {
   std::uint16_t word = 0;
@@ -79,9 +79,9 @@ struct Yuyv {
     return {One(row, x), One(row, x + 1)};
   }
   static std::uint32_t One(const std::uint8_t* row, int x) noexcept {
-    // Y0 U Y1 V: the second pixel's brightness moves to where the first one's is.
+    // Y0 U Y1 V: the first one's brightness makes way for the pixel's own.
     const std::uint32_t word = Load32(row + std::ptrdiff_t{4} * (x >> 1));
-    return (word & 0xff00ff00U) | ((word >> (16 * (x & 1))) & 0xffU);
+    return (word & 0xff00ff00U) | row[std::ptrdiff_t{2} * x];
   }
   Plane plane;
 };

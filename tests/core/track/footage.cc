@@ -59,6 +59,11 @@ Yuv ToYuv(const std::uint8_t* bgr, YuvEncoding encoding) {
   return {y * 219 / 255 + 16, u * 224 / 255 + 128, v * 224 / 255 + 128};
 }
 
+// Of a picture with three bytes a pixel.
+const std::uint8_t* PixelAt(const ImageView& image, std::ptrdiff_t x, std::ptrdiff_t y) {
+  return image.planes[0].data + y * image.planes[0].stride_bytes + 3 * x;
+}
+
 // Mean over the part of a block that is in the picture.
 Yuv MeanYuv(const Picture& bgr, int x, int y, int width, int height, YuvEncoding encoding) {
   Yuv sum{};
@@ -66,8 +71,7 @@ Yuv MeanYuv(const Picture& bgr, int x, int y, int width, int height, YuvEncoding
   const ImageView& image = bgr.view();
   for (int j = y; j < std::min(y + height, image.height_px); ++j) {
     for (int i = x; i < std::min(x + width, image.width_px); ++i, ++n) {
-      const Yuv one =
-          ToYuv(image.planes[0].data + j * image.planes[0].stride_bytes + 3 * i, encoding);
+      const Yuv one = ToYuv(PixelAt(image, i, j), encoding);
       sum = {sum.y + one.y, sum.u + one.u, sum.v + one.v};
     }
   }
@@ -120,21 +124,21 @@ Picture Picture::As(PixelFormat format, int padding, YuvEncoding encoding) const
   Picture out(format, width, height, padding, encoding);
   const int block_h = format == PixelFormat::kYuyv ? 1 : 2;
   for (int y = 0; y < height; ++y) {
-    const std::uint8_t* from = view_.planes[0].data + y * view_.planes[0].stride_bytes;
+    const std::uint8_t* from = PixelAt(view_, 0, y);
     std::uint8_t* to = out.row(0, y);
     for (int x = 0; x < width; ++x, from += 3) {
       switch (format) {
         case PixelFormat::kBgr24:
-          std::copy_n(from, 3, to + 3 * x);
+          std::copy_n(from, 3, to + std::ptrdiff_t{3} * x);
           break;
         case PixelFormat::kRgb24:
-          std::reverse_copy(from, from + 3, to + 3 * x);
+          std::reverse_copy(from, from + 3, to + std::ptrdiff_t{3} * x);
           break;
         case PixelFormat::kGrey8:
           to[x] = ToByte(ToYuv(from, YuvEncoding::kBt601Full).y);
           break;
         case PixelFormat::kYuyv:
-          to[2 * x] = ToByte(ToYuv(from, encoding).y);
+          to[std::ptrdiff_t{2} * x] = ToByte(ToYuv(from, encoding).y);
           break;
         case PixelFormat::kNv12:
         case PixelFormat::kI420:
@@ -144,8 +148,8 @@ Picture Picture::As(PixelFormat format, int padding, YuvEncoding encoding) const
       if (x % 2 != 0 || y % block_h != 0) continue;
       const Yuv mean = MeanYuv(*this, x, y, 2, block_h, encoding);
       if (format == PixelFormat::kYuyv) {
-        to[2 * x + 1] = ToByte(mean.u);
-        to[2 * x + 3] = ToByte(mean.v);
+        to[std::ptrdiff_t{2} * x + 1] = ToByte(mean.u);
+        to[std::ptrdiff_t{2} * x + 3] = ToByte(mean.v);
       } else if (format == PixelFormat::kNv12) {
         out.row(1, y / 2)[x] = ToByte(mean.u);
         out.row(1, y / 2)[x + 1] = ToByte(mean.v);
@@ -183,8 +187,7 @@ Picture Paste(const Picture& inner, int width, int height, int x, int y) {
     if (j + y < 0 || j + y >= height) continue;
     for (int i = 0; i < from.width_px; ++i) {
       if (i + x < 0 || i + x >= width) continue;
-      std::copy_n(from.planes[0].data + j * from.planes[0].stride_bytes + 3 * i, 3,
-                  out.row(0, j + y) + 3 * (i + x));
+      std::copy_n(PixelAt(from, i, j), 3, out.row(0, j + y) + std::ptrdiff_t{3} * (i + x));
     }
   }
   return out;
