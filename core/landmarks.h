@@ -12,10 +12,14 @@
 
 namespace facewire {
 
+// Further from the origin lies no picture; a coordinate beyond it is an accident.
+inline constexpr float kMaxCoordinatePx = 1e6F;
+
 // A face as the networks see it. Points in MediaPipe's face mesh order (468 mesh points, then with
 // the attention network 5 points of the image-left iris and 5 of the image-right one).
 // Pixels of the frame: x right, y down, (0,0) the top-left corner of the picture and (0.5,0.5) the
-// centre of its first pixel; z in the same unit, relative to the head, smaller = nearer to the camera.
+// centre of its first pixel; z in the same unit, relative to the head, smaller = nearer to the
+// camera.
 struct Landmarks {
   std::uint64_t seq = 0;  // of the frame
   Time captured{};        // of the frame

@@ -14,6 +14,7 @@ struct MonotonicClock {
   using period = std::micro;
   using duration = std::chrono::microseconds;
   using time_point = std::chrono::time_point<MonotonicClock, duration>;
+  // NOLINTNEXTLINE(readability-identifier-naming): the standard's clock requirements name it so.
   static constexpr bool is_steady = true;
 };
 

@@ -20,28 +20,30 @@ namespace facewire::filter {
 //   cut-off = min_cutoff + beta * max(0, |speed| - speed_floor)
 // Speed is in face sizes per second, so that one setting serves every distance to the camera.
 struct OneEuroConfig {
-  float
-      min_cutoff_hz;  // lower = less jitter in a still face, more lag at the start of a motion; > 0
-  float beta;         // raises the cut-off with speed: less lag; >= 0
-  float derivative_cutoff_hz;  // smoothing of the speed itself: higher = quicker to notice a
-                               // motion; > 0
-  // What is slower counts as jitter; >= 0. Speed is measured against the filtered point, so a slow
-  // motion is not lost: its lag counts as speed. The lag it may keep is about speed_floor x frame
-  // time x face size.
+  // > 0. Lower = less jitter in a still face, more lag at the start of a motion.
+  float min_cutoff_hz;
+  // >= 0. Raises the cut-off with speed: less lag.
+  float beta;
+  // > 0. Smoothing of the speed itself: higher = quicker to notice a motion.
+  float derivative_cutoff_hz;
+  // >= 0. What is slower counts as jitter. Speed is measured against the filtered point, so a slow
+  // motion is not lost: its lag counts as speed. The lag it may keep is about
+  // speed_floor x frame time x face size.
   float speed_floor;
 };
 
 struct FilterConfig {
-  OneEuroConfig eyes{0.1F, 120.0F, 5.0F,
-                     0.03F};  // lids and irises: a blink is over in 3 to 5 frames
-  OneEuroConfig mouth{0.1F, 120.0F, 3.0F, 0.02F};  // lips
+  // Lids and irises: a blink is over in 3 to 5 frames.
+  OneEuroConfig eyes{0.1F, 120.0F, 5.0F, 0.03F};
+  // Lips.
+  OneEuroConfig mouth{0.1F, 120.0F, 3.0F, 0.02F};
   OneEuroConfig rest{0.1F, 80.0F, 2.0F, 0.015F};
   PlausibilityConfig plausibility{};
   // A face that seems to have jumped is believed after so many measurements in a row that agree
   // with each other; >= 1 (1 = believed at once).
   int believe_after = 3;
-  Duration max_gap =
-      std::chrono::milliseconds(500);  // after a longer silence the past is forgotten
+  // After a longer silence the past is forgotten; > 0.
+  Duration max_gap = std::chrono::milliseconds(500);
 };
 // kOutOfRange: a number outside its range above, or not finite.
 Result<> Validate(const FilterConfig& config) noexcept;
@@ -54,13 +56,15 @@ class LandmarkFilter {
   // Forgets the past; the next landmarks pass unfiltered.
   void Reset() noexcept;
   // The smoothed landmarks, with everything but the points as in `in`.
-  //   The first after Reset, after a gap, after time went backwards, or of another count or picture
-  //   size: unchanged. At the same time as the last ones: the last result again, the same instant
-  //   has one answer.
+  //
+  // Unchanged are the first ones after Reset, after a gap, after time went backwards, and of
+  // another count or picture size. At the time of the last ones the last result comes again: the
+  // same instant has one answer.
+  //
   // kRejected: the measurement cannot be right (jump, collapse, presence); the caller treats the
-  // face as lost.
-  //   The past is kept until max_gap, so that one bad frame costs one frame. A face that really is
-  //   elsewhere is taken, from there and unfiltered, at its believe_after'th measurement.
+  // face as lost. The past is kept until max_gap, so that one bad frame costs one frame. A face
+  // that really is elsewhere is taken, from there and unfiltered, at its believe_after'th
+  // measurement.
   Result<Landmarks> Update(const Landmarks& in) noexcept;
 
  private:

@@ -8,10 +8,9 @@
 namespace facewire::filter {
 namespace {
 
-constexpr float kMaxCoordinate_px = 1e6F;
-constexpr float kMinEyeDistance_sizes = 0.15F;
-constexpr float kMinFaceHeight_sizes = 0.3F;
-constexpr float kShortestStep_s = 1.F / 30;
+constexpr float kMinEyeDistanceSizes = 0.15F;
+constexpr float kMinFaceHeightSizes = 0.3F;
+constexpr float kShortestStepS = 1.F / 30;
 
 // In MediaPipe's mesh.
 constexpr std::size_t kOuterEyeCorners[] = {33, 263};
@@ -26,7 +25,7 @@ std::optional<Extent> MeasureFace(const Landmarks& in, const PlausibilityConfig&
   if (!(in.presence >= config.min_presence)) return std::nullopt;  // NaN too
   if (in.count != kMeshLandmarks && in.count != kMaxLandmarks) return std::nullopt;
   const std::span<const Point3> points(in.points_px.data(), in.count);
-  if (!std::ranges::all_of(points, [](Point3 p) { return IsWithin(p, kMaxCoordinate_px); }))
+  if (!std::ranges::all_of(points, [](Point3 p) { return IsWithin(p, kMaxCoordinatePx); }))
     return std::nullopt;
 
   Point3 low = points[0];
@@ -44,13 +43,13 @@ std::optional<Extent> MeasureFace(const Landmarks& in, const PlausibilityConfig&
 
   const float eyes = Distance(points[kOuterEyeCorners[0]], points[kOuterEyeCorners[1]]);
   const float height = Distance(points[kForehead], points[kChin]);
-  if (eyes < kMinEyeDistance_sizes * face.size_px) return std::nullopt;
-  if (height < kMinFaceHeight_sizes * face.size_px) return std::nullopt;
+  if (eyes < kMinEyeDistanceSizes * face.size_px) return std::nullopt;
+  if (height < kMinFaceHeightSizes * face.size_px) return std::nullopt;
   return face;
 }
 
 bool Jumped(const Extent& from, const Extent& to, const PlausibilityConfig& config) noexcept {
-  const float step_s = std::max(kShortestStep_s, Seconds(Between(from.at, to.at)));
+  const float step_s = std::max(kShortestStepS, Seconds(Between(from.at, to.at)));
   const float moved =
       std::hypot(to.centre_px.x - from.centre_px.x, to.centre_px.y - from.centre_px.y);
   const float larger = std::max(from.size_px, to.size_px);

@@ -13,10 +13,6 @@
 namespace facewire::pose {
 namespace {
 
-// Pixels further out than this are not a picture's, and squares of them would eat up the float's
-// digits.
-constexpr float kMaxCoordinate_px = 1e6F;
-
 Matrix3 Transposed(const Matrix3& m) noexcept {
   return {m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]};
 }
@@ -59,7 +55,7 @@ Result<FacePose> PoseEstimator::Update(const Landmarks& in) const noexcept {
   if (in.count != kMeshLandmarks && in.count != kMaxLandmarks) return Errc::kRejected;
   if (in.width_px <= 0 || in.height_px <= 0) return Errc::kRejected;
   const std::span<const Point3> points(in.points_px.data(), in.count);
-  if (!std::ranges::all_of(points, [](Point3 p) { return IsWithin(p, kMaxCoordinate_px); }))
+  if (!std::ranges::all_of(points, [](Point3 p) { return IsWithin(p, kMaxCoordinatePx); }))
     return Errc::kRejected;
 
   // The camera's axes, still in pixels: y up, z towards the camera, the origin in the picture's

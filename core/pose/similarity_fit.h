@@ -21,8 +21,8 @@ struct Similarity {
   Matrix3 rotation = kIdentity3;  // orthonormal, determinant +1: never a reflection
   Point3 from_centre{};           // weighted means
   Point3 to_centre{};
-  float misfit =
-      0;  // weighted RMS distance left, relative to the weighted RMS radius of the `to`s; 0..1
+  // Weighted RMS distance left, relative to the weighted RMS radius of the `to`s; 0..1.
+  float misfit = 0;
 };
 
 // The similarity with the least weighted sum of squared distances. Closed form, no heap: rotation

@@ -387,6 +387,7 @@ TEST(LandmarkFilterMemory, UpdateAllocatesNothing) {
   if (!test::AllocationCounter::kAvailable) GTEST_SKIP() << test::AllocationCounter::kWhyNot;
   LandmarkFilter filter{FilterConfig{}};
   std::vector<Landmarks> frames;
+  frames.reserve(10);
   for (int i = 0; i < 10; ++i) frames.push_back(FaceAt(milliseconds(33 * i), i == 5 ? 300.F : 0.F));
   int accepted = 0;
   test::AllocationCounter counter;

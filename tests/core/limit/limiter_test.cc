@@ -208,6 +208,23 @@ TEST_F(LimiterTest, AChannelThatMayNotMoveDoesNot) {
   EXPECT_EQ(Call(kInfinity, milliseconds(100)), 0.5F);
 }
 
+TEST_F(LimiterTest, AbsurdLimitsAreKeptAsWell) {
+  constexpr float kHuge = std::numeric_limits<float>::max();
+  constexpr float kTiny = std::numeric_limits<float>::denorm_min();
+  for (float range : {kHuge, 1.F, kTiny}) {
+    for (float speed : {0.F, kTiny, 1.F, kHuge}) {
+      for (float acceleration : {0.F, kTiny, 1.F, kHuge}) {
+        ASSERT_TRUE(Configure(MakeChannel(-range, 0, range, speed, acceleration)));
+        for (int i = 0; i < 50; ++i) {
+          const float value = Call(i % 7 < 4 ? kInfinity : -kInfinity, milliseconds(33 * i));
+          ASSERT_GE(value, -range);
+          ASSERT_LE(value, range);
+        }
+      }
+    }
+  }
+}
+
 // What holds for every rig, every target and every sequence of times.
 class LimiterProperty : public testing::TestWithParam<unsigned> {
  protected:
