@@ -54,13 +54,13 @@ void WriteRegion(ByteWriter& out, const RegionConfig& region) {
   out.F32(region.rbf.epsilon);
   out.F32(region.rbf.smoothing);
   out.F32(region.rbf.tail_smoothing);
-  out.F32(region.distance_gain);
+  out.F32(region.gap_gain);
   WriteIndices(out, region.points.span());
   WriteIndices(out, region.origin.span());
-  out.U16(static_cast<std::uint16_t>(region.distances.size()));
-  for (const RegionConfig::Pair& pair : region.distances) {
-    out.U16(pair.first);
-    out.U16(pair.second);
+  out.U16(static_cast<std::uint16_t>(region.gaps.size()));
+  for (const RegionConfig::Gap& gap : region.gaps) {
+    out.U16(gap.upper);
+    out.U16(gap.lower);
   }
   WriteIndices(out, region.outputs.span());
 }
@@ -137,13 +137,13 @@ class Parser {
     region.rbf.epsilon = in_.F32();
     region.rbf.smoothing = in_.F32();
     region.rbf.tail_smoothing = in_.F32();
-    region.distance_gain = in_.F32();
+    region.gap_gain = in_.F32();
     ReadIndices(region.points);
     ReadIndices(region.origin);
-    const std::size_t pairs = in_.U16();
-    for (std::size_t i = 0; i < pairs; ++i) {
-      const std::uint16_t first = in_.U16();
-      Expect(in_.ok() && region.distances.try_push({first, in_.U16()}));
+    const std::size_t gaps = in_.U16();
+    for (std::size_t i = 0; i < gaps; ++i) {
+      const std::uint16_t upper = in_.U16();
+      Expect(in_.ok() && region.gaps.try_push({upper, in_.U16()}));
     }
     ReadIndices(region.outputs);
     return region;

@@ -10,7 +10,7 @@
 namespace facewire::retarget {
 namespace {
 
-constexpr std::size_t kMaxInputs = kMaxExpressionInputs + kMaxRegionDistances;
+constexpr std::size_t kMaxInputs = kMaxExpressionInputs + kMaxRegionGaps;
 
 // The landmark of "lm0".."lm477".
 std::optional<std::int16_t> LandmarkOf(std::string_view name) noexcept {
@@ -35,11 +35,11 @@ rbf::RbfShape ShapeOf(const RegionConfig& region, std::size_t samples) noexcept 
 bool IsValid(const RegionConfig& region, std::size_t markers, std::size_t signals) noexcept {
   const auto is_marker = [markers](std::uint16_t i) { return i < markers; };
   return region.inputs() > 0 && !region.outputs.empty() && region.axes <= region.inputs() &&
-         std::isfinite(region.distance_gain) && std::ranges::all_of(region.points, is_marker) &&
+         std::isfinite(region.gap_gain) && std::ranges::all_of(region.points, is_marker) &&
          std::ranges::all_of(region.origin, is_marker) &&
-         std::ranges::all_of(region.distances,
-                             [&](const RegionConfig::Pair& pair) {
-                               return is_marker(pair.first) && is_marker(pair.second);
+         std::ranges::all_of(region.gaps,
+                             [&](const RegionConfig::Gap& gap) {
+                               return is_marker(gap.upper) && is_marker(gap.lower);
                              }) &&
          std::ranges::all_of(region.outputs, [signals](std::uint16_t i) { return i < signals; });
 }
@@ -222,9 +222,8 @@ void ExpressionMapping::ReadInputs(const RegionConfig& region, std::span<const P
     inputs[at++] = p.y;
     inputs[at++] = p.z;
   }
-  for (const RegionConfig::Pair& pair : region.distances) {
-    const Point3 d = points_cm[pair.first] - points_cm[pair.second];
-    inputs[at++] = region.distance_gain * std::sqrt(Dot(d, d));
+  for (const RegionConfig::Gap& gap : region.gaps) {
+    inputs[at++] = region.gap_gain * (points_cm[gap.upper].y - points_cm[gap.lower].y);
   }
 }
 

@@ -19,21 +19,23 @@ namespace facewire::retarget {
 // A part of the face with a function of its own: some markers in, some signals out. Regions keep
 // apart what does not belong together (a blink moves no mouth) and let what matters weigh more.
 struct RegionConfig {
-  struct Pair {
-    std::uint16_t first = 0, second = 0;
+  struct Gap {
+    std::uint16_t upper = 0, lower = 0;  // indices of markers
   };
   ShortName name;
   rbf::RbfConfig rbf;
   // > 0: distances are taken in that many principal axes of the inputs (see rbf::PrincipalAxes).
   std::uint16_t axes = 0;
-  float distance_gain = 1;  // multiplies the distances below: how much more they count
+  float gap_gain = 1;  // multiplies the gaps below: how much more they count
   // Indices of markers. The inputs are the coordinates of `points` minus the mean of `origin` (when
-  // there are any), then the lengths between the `distances` pairs; all in cm.
+  // there are any), then how far the upper marker of each gap is above the lower one; all in cm. A
+  // gap has a sign, unlike a distance: lips that press closer than in a neutral with parted lips
+  // must not read as open.
   InlineVector<std::uint16_t, kMaxMarkers> points, origin;
-  InlineVector<Pair, kMaxRegionDistances> distances;
+  InlineVector<Gap, kMaxRegionGaps> gaps;
   InlineVector<std::uint16_t, kMaxSignals> outputs;  // indices of signals
 
-  constexpr std::size_t inputs() const noexcept { return 3 * points.size() + distances.size(); }
+  constexpr std::size_t inputs() const noexcept { return 3 * points.size() + gaps.size(); }
 };
 
 // Example pairs, borrowed.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace facewire::retarget {
@@ -28,6 +29,18 @@ bool IsFinite(const FacePose& face) noexcept {
   return finite(face.camera_t_head_cm) &&
          std::ranges::all_of(face.camera_R_head, [](float v) { return std::isfinite(v); }) &&
          std::ranges::all_of(std::span(face.points_cm).first(face.count), finite);
+}
+
+// A mouth that stands open is nobody's face at rest, and as a neutral it would make closed lips the
+// opposite of open ones. Gap of the inner lips over the mouth's width; only in the face mesh's
+// order.
+constexpr float kOpenMouth = 0.2F;
+
+bool MouthStandsOpen(const Neutral& neutral) noexcept {
+  if (neutral.count < kMeshLandmarks) return false;
+  const Point3 gap = neutral.points_cm[13] - neutral.points_cm[14];
+  const Point3 width = neutral.points_cm[308] - neutral.points_cm[78];
+  return Dot(gap, gap) > kOpenMouth * kOpenMouth * Dot(width, width);
 }
 
 }  // namespace
@@ -84,9 +97,47 @@ float NeutralCapture::progress() const noexcept {
   return std::clamp(std::min(frames, time), 0.0F, 1.0F);
 }
 
+// Sum of squared distances over every fourth point: neighbours move alike.
+float NeutralCapture::DistanceBetween(const Shot& a, const Shot& b) const noexcept {
+  float sum = 0;
+  for (std::size_t p = 0; p < points_; p += 4) {
+    const Point3 d = a.points_cm[p] - b.points_cm[p];
+    sum += Dot(d, d);
+  }
+  return sum;
+}
+
+// The shot with the least median distance to all others.
+std::size_t NeutralCapture::MostTypical() noexcept {
+  std::size_t best = 0;
+  float least = std::numeric_limits<float>::infinity();
+  for (std::size_t i = 0; i < count_; ++i) {
+    for (std::size_t j = 0; j < count_; ++j) scratch_[j] = DistanceBetween(shots_[i], shots_[j]);
+    const float median = Median(scratch_.first(count_));
+    if (median >= least) continue;
+    least = median;
+    best = i;
+  }
+  return best;
+}
+
+void NeutralCapture::ChooseAlike() noexcept {
+  const Shot& typical = shots_[MostTypical()];
+  std::array<float, kMaxNeutralFrames> distance{};
+  for (std::size_t i = 0; i < count_; ++i) {
+    alike_[i] = static_cast<std::uint8_t>(i);
+    distance[i] = DistanceBetween(shots_[i], typical);
+  }
+  const auto end = alike_.begin() + static_cast<std::ptrdiff_t>(count_);
+  std::sort(alike_.begin(), end,
+            [&](std::uint8_t a, std::uint8_t b) { return distance[a] < distance[b]; });
+  alike_count_ = (count_ + 1) / 2;
+}
+
 float NeutralCapture::MedianOf(float Point3::*axis, std::size_t point) noexcept {
-  for (std::size_t i = 0; i < count_; ++i) scratch_[i] = shots_[i].points_cm[point].*axis;
-  return Median(scratch_.first(count_));
+  for (std::size_t i = 0; i < alike_count_; ++i)
+    scratch_[i] = shots_[alike_[i]].points_cm[point].*axis;
+  return Median(scratch_.first(alike_count_));
 }
 
 float NeutralCapture::StrayOf(std::size_t point, Point3 median) noexcept {
@@ -114,6 +165,7 @@ std::size_t NeutralCapture::MedianAttitude(float& turn_deg) noexcept {
 
 Result<Neutral> NeutralCapture::Finish() noexcept {
   if (progress() < 1) return Errc::kNotReady;
+  ChooseAlike();
   Neutral neutral;
   neutral.count = points_;
   for (std::size_t p = 0; p < points_; ++p)
@@ -124,7 +176,8 @@ Result<Neutral> NeutralCapture::Finish() noexcept {
     if (StrayOf(p, neutral.points_cm[p]) > config_.max_stray_cm) ++moving;
   float turn_deg = 0;
   const std::size_t attitude = MedianAttitude(turn_deg);
-  if (10 * moving > points_ || turn_deg > config_.max_turn_deg) return Errc::kRejected;
+  if (10 * moving > points_ || turn_deg > config_.max_turn_deg || MouthStandsOpen(neutral))
+    return Errc::kRejected;
   neutral.camera_R_head = shots_[attitude].camera_R_head;
   for (float Point3::*axis : {&Point3::x, &Point3::y, &Point3::z}) {
     for (std::size_t i = 0; i < count_; ++i) scratch_[i] = shots_[i].camera_t_head_cm.*axis;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "core/base/arena.h"
@@ -24,9 +25,10 @@ struct NeutralCaptureConfig {
   float max_turn_deg = 10.0F;
 };
 
-// Finds a performer's neutral face: the median of each coordinate over a window, which a blink or a
-// lost frame inside the window does not touch. When its memory is full it keeps every second frame
-// and takes frames half as often, so any duration and frame rate fit.
+// Finds a performer's neutral face in a window of time: first the half of the frames that are most
+// alike, then the median of each coordinate over them. So neither blinks nor a word spoken inside
+// the window matter. When its memory is full it keeps every second frame and takes frames half as
+// often, so any duration and frame rate fit.
 class NeutralCapture {
  public:
   static std::size_t RequiredBytes() noexcept;
@@ -54,6 +56,9 @@ class NeutralCapture {
     Point3 camera_t_head_cm{};
     std::array<Point3, kMaxLandmarks> points_cm{};
   };
+  float DistanceBetween(const Shot& a, const Shot& b) const noexcept;
+  std::size_t MostTypical() noexcept;
+  void ChooseAlike() noexcept;
   float MedianOf(float Point3::*axis, std::size_t point) noexcept;
   float StrayOf(std::size_t point, Point3 median) noexcept;
   std::size_t MedianAttitude(float& turn_deg) noexcept;
@@ -61,10 +66,14 @@ class NeutralCapture {
   NeutralCaptureConfig config_;
   std::span<Shot> shots_;     // kMaxNeutralFrames
   std::span<float> scratch_;  // the larger of kMaxNeutralFrames and kMaxLandmarks
-  std::size_t count_ = 0;     // shots
-  std::size_t points_ = 0;    // of each shot
-  std::size_t every_ = 1;     // takes one of so many frames
+  std::array<std::uint8_t, kMaxNeutralFrames>
+      alike_{};  // the half of the shots that are most alike
+  std::size_t alike_count_ = 0;
+  std::size_t count_ = 0;   // shots
+  std::size_t points_ = 0;  // of each shot
+  std::size_t every_ = 1;   // takes one of so many frames
   std::size_t skipped_ = 0;
+  static_assert(kMaxNeutralFrames <= 256, "alike_ counts in bytes");
 };
 
 }  // namespace facewire::retarget

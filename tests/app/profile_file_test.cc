@@ -39,7 +39,7 @@ TEST(ProfileFile, IsReadAsItWasWritten) {
   EXPECT_EQ(read.regions[1].name.view(), "mouth");
   EXPECT_EQ(read.regions[1].rbf.smoothing, written.regions[1].rbf.smoothing);
   EXPECT_EQ(read.regions[1].rbf.tail, rbf::Tail::kLinear);
-  EXPECT_EQ(read.regions[1].distances[0].second, 3);
+  EXPECT_EQ(read.regions[1].gaps[0].lower, 3);
   SaveProfile(scratch / "b.profile", read);
   EXPECT_EQ(Scratch::Read(scratch / "a.profile"), Scratch::Read(scratch / "b.profile"));
 }

@@ -30,7 +30,7 @@ constexpr std::array<std::pair<std::string_view, rbf::Tail>, 3> kTails = {{
     {"linear", rbf::Tail::kLinear},
 }};
 constexpr std::array<std::string_view, 12> kKeys = {
-    "name", "targets", "points", "origin",  "distances", "distance_gain",
+    "name", "targets", "points", "origin",  "gaps",      "gap_gain",
     "axes", "kernel",  "tail",   "epsilon", "smoothing", "tail_smoothing"};
 
 template <class Table>
@@ -64,13 +64,13 @@ class RegionReader {
     region.rbf.epsilon = Number("epsilon", region.rbf.epsilon);
     region.rbf.smoothing = Number("smoothing", region.rbf.smoothing);
     region.rbf.tail_smoothing = Number("tail_smoothing", region.rbf.tail_smoothing);
-    region.distance_gain = Number("distance_gain", 1);
+    region.gap_gain = Number("gap_gain", 1);
     Indices("points", training_.markers, "marker", region.points);
     Indices("origin", training_.markers, "marker", region.origin);
     Indices("targets", training_.signals, "target", region.outputs);
-    ReadDistances(region);
+    ReadGaps(region);
     const float axes = Number("axes", 0);
-    if (region.inputs() == 0) Fail(table_, "a region needs points or distances");
+    if (region.inputs() == 0) Fail(table_, "a region needs points or gaps");
     if (region.outputs.empty()) Fail(table_, "a region needs targets");
     if (axes != std::floor(axes) || axes > static_cast<float>(region.inputs()))
       Fail(*table_.get("axes"), "axes has to be a whole number up to the region's " +
@@ -134,16 +134,17 @@ class RegionReader {
         Fail(node, std::string(key) + " holds at most " + std::to_string(N) + " names");
   }
 
-  void ReadDistances(RegionConfig& region) const {
-    const toml::array* list = Array("distances");
+  void ReadGaps(RegionConfig& region) const {
+    const toml::array* list = Array("gaps");
     if (list == nullptr) return;
     for (const toml::node& node : *list) {
       const toml::array* pair = node.as_array();
-      if (pair == nullptr || pair->size() != 2) Fail(node, "a distance is a pair of markers");
-      const RegionConfig::Pair indices = {Index(*pair->get(0), training_.markers, "marker"),
-                                          Index(*pair->get(1), training_.markers, "marker")};
-      if (!region.distances.try_push(indices))
-        Fail(node, "at most " + std::to_string(kMaxRegionDistances) + " distances fit");
+      if (pair == nullptr || pair->size() != 2)
+        Fail(node, "a gap is a pair of markers: the upper and the lower one");
+      const RegionConfig::Gap indices = {Index(*pair->get(0), training_.markers, "marker"),
+                                         Index(*pair->get(1), training_.markers, "marker")};
+      if (!region.gaps.try_push(indices))
+        Fail(node, "at most " + std::to_string(kMaxRegionGaps) + " gaps fit");
     }
   }
 

@@ -47,7 +47,7 @@ def eye(side):
     return lambda n: n.startswith("eye") and n.endswith(side) and not n.startswith("eyeBlink")
 
 
-# name, targets, points, origin, distances, gain of the distances, smoothing, smoothing of the tail
+# name, targets, points, origin, gaps, gain of the gaps, smoothing, smoothing of the tail
 REGIONS = [
     ("blinkRight", lambda n: n == "eyeBlinkRight", RIGHT_LIDS, RIGHT_CORNERS, RIGHT_GAPS, 3, 0.05, 0.1),
     ("blinkLeft", lambda n: n == "eyeBlinkLeft", LEFT_LIDS, LEFT_CORNERS, LEFT_GAPS, 3, 0.05, 0.1),
@@ -104,12 +104,12 @@ def choose(poses):
     return (first + made + real + shuffled)[:ROWS]
 
 
-def inputs(x, marker, points, origin, distances, gain):
+def inputs(x, marker, points, origin, gaps, gain):
     at = x[:, [marker[p] for p in points]]
     if origin:
         at = at - x[:, [marker[p] for p in origin]].mean(1, keepdims=True)
-    lengths = [gain * np.linalg.norm(x[:, marker[a]] - x[:, marker[b]], axis=1) for a, b in distances]
-    return np.c_[at.reshape(len(x), -1), np.array(lengths).T.reshape(len(x), -1)]
+    heights = [gain * (x[:, marker[a], 1] - x[:, marker[b], 1]) for a, b in gaps]
+    return np.c_[at.reshape(len(x), -1), np.array(heights).T.reshape(len(x), -1)]
 
 
 def median_distance(f):
@@ -143,8 +143,8 @@ def main():
     index = {m: i for i, m in enumerate(markers)}
     with open(out / "average.regions.toml", "w") as f:
         f.write("# Written by tools/generate/average_training.py; for facewire train --regions.\n")
-        for name, wanted, points, origin, distances, gain, smoothing, tail_smoothing in REGIONS:
-            epsilon = 1 / median_distance(inputs(x, index, points, origin, distances, gain))
+        for name, wanted, points, origin, gaps, gain, smoothing, tail_smoothing in REGIONS:
+            epsilon = 1 / median_distance(inputs(x, index, points, origin, gaps, gain))
             f.write(f'\n[[region]]\nname = "{name}"\nkernel = "multiquadric"\ntail = "linear"\n')
             f.write(f"epsilon = {epsilon:.4f}\nsmoothing = {smoothing}\n")
             f.write(f"tail_smoothing = {tail_smoothing}\n")
@@ -153,9 +153,9 @@ def main():
             f.write("points = " + json.dumps([f"lm{p}" for p in points]) + "\n")
             if origin:
                 f.write("origin = " + json.dumps([f"lm{p}" for p in origin]) + "\n")
-            if distances:
-                f.write(f"distance_gain = {gain}\n")
-                f.write("distances = " + json.dumps([[f"lm{a}", f"lm{b}"] for a, b in distances]) + "\n")
+            if gaps:
+                f.write(f"gap_gain = {gain}\n")
+                f.write("gaps = " + json.dumps([[f"lm{a}", f"lm{b}"] for a, b in gaps]) + "\n")
 
 
 if __name__ == "__main__":

@@ -59,6 +59,32 @@ TEST(NeutralCapture, BlinksInTheWindowDoNotMatter) {
   EXPECT_NEAR(neutral->points_cm[386].y, 1, 0.011F);
 }
 
+TEST(NeutralCapture, AWordSpokenInTheWindowDoesNotMatter) {
+  Context c;
+  for (int i = 0; i <= 60; ++i) {
+    auto face = Face(i);
+    if (i > 32)
+      for (std::size_t p = 14; p < 90; ++p) face->points_cm[p].y -= 2;
+    c.capture.Add(*face);
+  }
+  const auto neutral = c.capture.Finish();
+  ASSERT_TRUE(neutral);
+  EXPECT_EQ(neutral->points_cm[14].y, 1);
+}
+
+TEST(NeutralCapture, AMouthThatStandsOpenIsNoFaceAtRest) {
+  Context c;
+  for (int i = 0; i <= 60; ++i) {
+    auto face = Face(i);
+    face->points_cm[78] = {-2, 0, 0};
+    face->points_cm[308] = {2, 0, 0};
+    face->points_cm[13] = {0, 0.5F, 0};
+    face->points_cm[14] = {0, -0.5F, 0};
+    c.capture.Add(*face);
+  }
+  EXPECT_EQ(c.capture.Finish().error(), Errc::kRejected);
+}
+
 TEST(NeutralCapture, AFaceThatKeepsMovingIsRefused) {
   Context c;
   for (int i = 0; i <= 60; ++i) {

@@ -40,7 +40,7 @@ struct TrainingExample {
     Fill(eye.outputs, {0});
     Fill(mouth.points, {2, 3});
     Fill(mouth.outputs, {1});
-    if (!mouth.distances.try_push({2, 3})) regions.clear();
+    if (!mouth.gaps.try_push({2, 3})) regions.clear();
     regions = {eye, mouth};
   }
 

@@ -111,7 +111,7 @@ TEST(Train, RegionsKeepTheirMarkersApart) {
                                        "[[region]]\nname = \"mouth\"\npoints = [\"lip\"]\n"
                                        "targets = [\"jaw_deg\"]\nsmoothing = 0.01\n"
                                        "[[region]]\nname = \"eye\"\n"
-                                       "distances = [[\"lip\", \"lid\"]]\npoints = [\"lid\"]\n"
+                                       "gaps = [[\"lip\", \"lid\"]]\npoints = [\"lid\"]\n"
                                        "targets = [\"blink\"]\nsmoothing = 0.01\naxes = 2\n");
   c.Train({"--regions", regions.string(), "--epsilon", "0.5", "--tail", "constant"});
   EXPECT_EQ(c.At({{0, -1, 0}, {3, 3, 0}})[0], c.At({{0, -1, 0}, {9, 9, 9}})[0]);
