@@ -47,7 +47,7 @@ std::string Suggestion(std::string_view written, const std::vector<std::string>&
 struct NumberRange {
   double min = -std::numeric_limits<double>::max();
   double max = std::numeric_limits<double>::max();
-  std::string_view unit;  // for the message only
+  std::string_view unit{};  // for the message only
 };
 
 // Reads one table of a TOML file into plain variables. A key that is absent leaves its variable as
