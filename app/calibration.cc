@@ -1,9 +1,31 @@
 #include "app/calibration.h"
 
+#include <cmath>
+
 namespace facewire::app {
+namespace {
+
+// Of MediaPipe's face mesh.
+constexpr std::size_t kUpperLipInside = 13;
+constexpr std::size_t kLowerLipInside = 14;
+constexpr std::size_t kRightEyeOuter = 33;
+constexpr std::size_t kLeftEyeOuter = 263;
+
+float Distance(const retarget::Neutral& face, std::size_t a, std::size_t b) noexcept {
+  const Point3 d = face.points_cm[a] - face.points_cm[b];
+  return std::sqrt(Dot(d, d));
+}
+
+bool LipsAreOpen(const retarget::Neutral& face) noexcept {
+  return Distance(face, kUpperLipInside, kLowerLipInside) >
+         Calibration::kClosedLips * Distance(face, kRightEyeOuter, kLeftEyeOuter);
+}
+
+}  // namespace
 
 void Calibration::BeginByItself() noexcept {
   mode_ = Mode::kByItself;
+  refused_ = 0;
   capture_.Reset();
 }
 
@@ -26,6 +48,10 @@ bool Calibration::Update(const FacePose* face, Outcome& outcome) noexcept {
     capture_.Add(*face);
     if (capture_.progress() < 1) return false;
     const Result<retarget::Neutral> neutral = capture_.Finish();
+    if (neutral && mode_ == Mode::kByItself && LipsAreOpen(*neutral) && ++refused_ < kPatience) {
+      capture_.Reset();
+      return false;
+    }
     if (neutral) {
       outcome.taken = true;
       outcome.neutral = *neutral;

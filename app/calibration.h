@@ -16,11 +16,18 @@ class Calibration {
   // `capture` is configured and borrowed.
   explicit Calibration(retarget::NeutralCapture& capture) noexcept : capture_(capture) {}
 
-  // Takes a provisional neutral as soon as a face is seen calmly for long enough.
+  // Takes a provisional neutral as soon as a face is seen calmly, and with closed lips, for long
+  // enough: nobody was asked to look neutral, and a smile can be calm. Somebody whose lips never
+  // close is taken as he is after kPatience tries.
   void BeginByItself() noexcept;
   // False, with nothing changed, while another command's capture runs.
   bool Begin(const wire::Command& command) noexcept;
   void Cancel() noexcept { mode_ = Mode::kIdle; }
+
+  static constexpr int kPatience = 10;
+  // Lips further apart than this part of the distance between the outer corners of the eyes are
+  // open. Measured on the inner lips: a closed mouth shows up to 0.01, an open smile 0.1 to 0.2.
+  static constexpr float kClosedLips = 0.035F;
 
   struct Outcome {
     std::optional<wire::Command> command;  // to be acknowledged with
@@ -36,6 +43,7 @@ class Calibration {
 
   retarget::NeutralCapture& capture_;
   Mode mode_ = Mode::kIdle;
+  int refused_ = 0;  // calm faces with open lips
   wire::Command command_;
 };
 

@@ -24,8 +24,8 @@ struct FileKind {
   std::string_view remedy;  // what makes a good one: "make it again with facewire train"
 };
 
-// The frame that facewire's own binary files share (byte by byte in app/formats.md): magic, version,
-// length, payload, CRC-32. All numbers are little-endian.
+// The frame that facewire's own binary files share (byte by byte in app/formats.md): magic,
+// version, length, payload, CRC-32. All numbers are little-endian.
 std::vector<std::byte> Seal(const FileKind& kind, std::span<const std::byte> payload);
 
 // The payload of `path`. BadInput, one line: missing or unreadable, not this kind of file, another

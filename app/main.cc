@@ -1,8 +1,8 @@
 // facewired: a camera looks at a performer, and a character's face moves.
 
-#include <CLI/CLI.hpp>
 #include <sys/mman.h>
 
+#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <exception>

@@ -226,6 +226,7 @@ class RigReader {
     table.Text("landmark", name);
     if (const auto index = LandmarkByName(name)) return *index;
     std::vector<std::string> names;
+    names.reserve(kLandmarks.size());
     for (const NamedLandmark& known : kLandmarks) names.emplace_back(known.name);
     std::string hint = Suggestion(name, names);
     if (hint.empty())

@@ -203,9 +203,10 @@ void Service::Obey(const wire::Command& command, state::Inputs& in) noexcept {
 void Service::Calibrate(const FacePose* face) noexcept {
   if (!calibration_.Update(face, outcome_)) return;
   if (outcome_.taken) {
-    if (!UseNeutral(outcome_.neutral)) {
-      outcome_.result = wire::CommandResult::kFailed;
-    } else if (outcome_.command && parts_.keep_neutral && !parts_.keep_neutral(outcome_.neutral)) {
+    const bool used = UseNeutral(outcome_.neutral).has_value();
+    // What nobody asked for is provisional and not kept.
+    const bool keep = used && outcome_.command && parts_.keep_neutral;
+    if (!used || (keep && !parts_.keep_neutral(outcome_.neutral))) {
       outcome_.result = wire::CommandResult::kFailed;
     }
   }

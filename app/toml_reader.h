@@ -47,7 +47,7 @@ std::string Suggestion(std::string_view written, const std::vector<std::string>&
 struct NumberRange {
   double min = -std::numeric_limits<double>::max();
   double max = std::numeric_limits<double>::max();
-  std::string_view unit = "";  // for the message only
+  std::string_view unit{};  // for the message only
 };
 
 // Reads one table of a TOML file into plain variables. A key that is absent leaves its variable as
@@ -69,6 +69,7 @@ class TableReader {
   void Choice(std::string_view key, T& value,
               const std::vector<std::pair<std::string_view, T>>& choices) {
     std::vector<std::string> names;
+    names.reserve(choices.size());
     for (const auto& choice : choices) names.emplace_back(choice.first);
     const std::size_t at = ChoiceIndex(key, names);
     if (at < choices.size()) value = choices[at].second;

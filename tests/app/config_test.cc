@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <regex>
 #include <sstream>
 
 #include "app/toml_reader.h"
@@ -21,7 +20,7 @@ std::string Complaint(const std::string& text) {
   const Scratch scratch;
   const auto file = scratch.Write("facewire.toml", text);
   const std::string what = ProblemsOf([&] { (void)LoadConfig(file); });
-  return std::regex_replace(what, std::regex(file.string()), "F");
+  return Replaced(what, file.string(), "F");
 }
 
 struct Row {

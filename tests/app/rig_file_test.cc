@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <regex>
 
 #include "tests/app/scratch.h"
 
@@ -19,7 +18,7 @@ std::string Complaint(const std::string& text) {
   const Scratch scratch;
   const auto file = scratch.Write("rig.toml", text);
   const std::string what = ProblemsOf([&] { (void)LoadRig(file, &kSignals); });
-  return std::regex_replace(what, std::regex(file.string()), "F");
+  return Replaced(what, file.string(), "F");
 }
 
 std::filesystem::path Otto() {

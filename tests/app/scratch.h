@@ -74,6 +74,14 @@ std::string ProblemsOf(Call call) {
   return "";
 }
 
+// `text` with every `from` replaced by `to`.
+inline std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
 }  // namespace facewire::app
 
 #endif  // FACEWIRE_TESTS_APP_SCRATCH_H_
