@@ -47,21 +47,21 @@ def eye(side):
     return lambda n: n.startswith("eye") and n.endswith(side) and not n.startswith("eyeBlink")
 
 
-# name, targets, points, origin, gaps, gain of the gaps, smoothing, smoothing of the tail
+# name, targets, points, origin, gaps, gain of the gaps, axes, smoothing, smoothing of the tail
+# Few axes for the lids: they move in few ways, and a lid that closes unlike the training's lids (a plain
+# closing of the average face) then still reads as 0.7 instead of 0.5.
 REGIONS = [
-    ("blinkRight", lambda n: n == "eyeBlinkRight", RIGHT_LIDS, RIGHT_CORNERS, RIGHT_GAPS, 3, 0.05, 0.1),
-    ("blinkLeft", lambda n: n == "eyeBlinkLeft", LEFT_LIDS, LEFT_CORNERS, LEFT_GAPS, 3, 0.05, 0.1),
-    ("eyeRight", eye("Right"), RIGHT_LIDS + RIGHT_SOCKET + RIGHT_IRIS, RIGHT_CORNERS, [], 1, 0.5, 1),
-    ("eyeLeft", eye("Left"), LEFT_LIDS + LEFT_SOCKET + LEFT_IRIS, LEFT_CORNERS, [], 1, 0.5, 1),
-    ("brows", starts("brow"), BROWS, NOSE_ROOT + [133, 362], [], 1, 0.5, 1),
-    ("jaw", lambda n: n == "jawOpen", INNER_LIPS, INNER_LIPS, LIP_GAPS, 6, 1, 10),
+    ("blinkRight", lambda n: n == "eyeBlinkRight", RIGHT_LIDS, RIGHT_CORNERS, RIGHT_GAPS, 3, 8, 0.05, 0.1),
+    ("blinkLeft", lambda n: n == "eyeBlinkLeft", LEFT_LIDS, LEFT_CORNERS, LEFT_GAPS, 3, 8, 0.05, 0.1),
+    ("eyeRight", eye("Right"), RIGHT_LIDS + RIGHT_SOCKET + RIGHT_IRIS, RIGHT_CORNERS, [], 1, 24, 0.5, 1),
+    ("eyeLeft", eye("Left"), LEFT_LIDS + LEFT_SOCKET + LEFT_IRIS, LEFT_CORNERS, [], 1, 24, 0.5, 1),
+    ("brows", starts("brow"), BROWS, NOSE_ROOT + [133, 362], [], 1, 24, 0.5, 1),
+    ("jaw", lambda n: n == "jawOpen", INNER_LIPS, INNER_LIPS, LIP_GAPS, 6, 24, 1, 10),
     ("mouth", starts("mouth", "cheekPuff", "jawLeft", "jawRight", "jawForward"),
-     INNER_LIPS + OUTER_LIPS + CHIN + NOSE + CHEEKS, [], [], 1, 2, 50),
+     INNER_LIPS + OUTER_LIPS + CHIN + NOSE + CHEEKS, [], [], 1, 24, 2, 50),
     ("cheeks", starts("cheekSquint", "noseSneer"),
-     CHEEKS + NOSE + RIGHT_SOCKET + LEFT_SOCKET + OUTER_LIPS[::3], [], [], 1, 0.5, 10),
+     CHEEKS + NOSE + RIGHT_SOCKET + LEFT_SOCKET + OUTER_LIPS[::3], [], [], 1, 24, 0.5, 10),
 ]
-AXES = 24
-
 
 class ObjectSpace:
     """Landmarks in pixels to the canonical face's space (cm): the weighted similarity fit of core/pose."""
@@ -143,12 +143,12 @@ def main():
     index = {m: i for i, m in enumerate(markers)}
     with open(out / "average.regions.toml", "w") as f:
         f.write("# Written by tools/generate/average_training.py; for facewire train --regions.\n")
-        for name, wanted, points, origin, gaps, gain, smoothing, tail_smoothing in REGIONS:
+        for name, wanted, points, origin, gaps, gain, axes, smoothing, tail_smoothing in REGIONS:
             epsilon = 1 / median_distance(inputs(x, index, points, origin, gaps, gain))
             f.write(f'\n[[region]]\nname = "{name}"\nkernel = "multiquadric"\ntail = "linear"\n')
             f.write(f"epsilon = {epsilon:.4f}\nsmoothing = {smoothing}\n")
             f.write(f"tail_smoothing = {tail_smoothing}\n")
-            f.write(f"axes = {AXES}\n")
+            f.write(f"axes = {axes}\n")
             f.write("targets = " + json.dumps([n for n in names if wanted(n)]) + "\n")
             f.write("points = " + json.dumps([f"lm{p}" for p in points]) + "\n")
             if origin:
