@@ -25,9 +25,9 @@ struct Similarity {
   float misfit = 0;
 };
 
-// The similarity with the least weighted sum of squared distances. Closed form, no heap: rotation
-// by the quaternion method of B.K.P. Horn, "Closed-form solution of absolute orientation using unit
-// quaternions", J. Opt. Soc. Am. A 4 (1987).
+// The similarity with the least weighted sum of squared distances, after S. Umeyama, "Least-squares
+// estimation of transformation parameters between two point patterns", IEEE PAMI 13 (1991). Without
+// the heap: Eigen's fixed-size Jacobi SVD refers to none, its eigenvalue solvers do.
 // kSingular: more than one rotation fits equally well (fewer than three points, all on one line,
 // all weights zero). The points must be finite and below 1e9.
 Result<Similarity> FitSimilarity(std::span<const PointPair> pairs) noexcept;
