@@ -149,7 +149,8 @@ class RigReader {
       const bool limited = limits.Require("min", "the lowest value (a position is an offset)") &
                            limits.Require("max", "the highest value (a position is an offset)");
       ReadChannel(limits, axis.range, channel);
-      const bool follows_landmark = IsPosition(axis.kind) && bone.landmark >= 0;
+      // A landmark that is wrong was reported; the bone was meant to have one.
+      const bool follows_landmark = IsPosition(axis.kind) && table.Has("landmark");
       if (limited && channel.drives.empty() && !limits.Has("drive") && !follows_landmark) {
         table.Problem(axis.name,
                       IsPosition(axis.kind)

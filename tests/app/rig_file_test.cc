@@ -93,6 +93,8 @@ TEST(LoadRig, SaysWhatIsWrongWhereAndWhatWouldBeRight) {
        "\"chin\""},
       {"name = \"r\"\n[[bone]]\nname = \"b\"\nlandmark = 478\n",
        "F:4:12: bone[0].landmark: 478 is out of range; allowed: 0 to 477"},
+      {"name = \"r\"\n[[bone]]\nname = \"b\"\nlandmark = 478\nx = { min = -1, max = 1 }\n",
+       "F:4:12: bone[0].landmark: 478 is out of range; allowed: 0 to 477"},
       {"name = \"r\"\n[[bone]]\nname = \"b\"\n[[bone]]\nname = \"b\"\n",
        "F:5:8: bone[1].name: a second bone \"b\"; every name may be there once"},
       {"name = \"r\"\n[[bone]]\nname = \"b c\"\n",
