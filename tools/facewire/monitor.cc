@@ -11,9 +11,8 @@
 #include <string>
 #include <string_view>
 
+#include "app/devices.h"
 #include "app/error.h"
-#include "hal/pty/pty_port.h"
-#include "hal/serialport/serialport_port.h"
 #include "hal/system_clock.h"
 #include "tools/facewire/commands.h"
 #include "tools/facewire/monitor_recorder.h"
@@ -79,30 +78,7 @@ std::unique_ptr<hal::SerialPort> MakePort(const std::string& path, int baud) {
   if (path == "-" || (exists && (S_ISREG(status.st_mode) || S_ISFIFO(status.st_mode)))) {
     return std::make_unique<StreamPort>(path);
   }
-  if (hal::pty::IsPseudoTerminal(path).value_or(false)) {
-    return std::make_unique<hal::pty::PtyPort>(path);
-  }
-  return std::make_unique<hal::serialport::SerialportPort>(
-      hal::serialport::SerialportConfig{.path = path, .baud = baud});
-}
-
-void OpenPort(hal::SerialPort& port, const std::string& path, int baud) {
-  const auto opened = port.Open();
-  if (opened) return;
-  switch (opened.error()) {
-    case Errc::kNotFound:
-      throw app::BadInput("there is no port " + path + "; `facewire doctor` lists those there are");
-    case Errc::kBusy:
-      throw app::BadInput(path + " is in use by another program; end that one first");
-    case Errc::kPermission:
-      throw app::BadInput("no permission to open " + path +
-                          "; `facewire doctor` says which group you need to be in");
-    case Errc::kUnsupported:
-      throw app::BadInput(path + " is not a serial line that can do " + std::to_string(baud) +
-                          " baud; give a tty, a pty, a file, a FIFO or -");
-    default:
-      throw app::Failure("opening " + path + ": " + Name(opened.error()));
-  }
+  return app::MakeSerialPort(path, baud);
 }
 
 // Nothing sound at all is not a quiet success: a script, and a person, should notice.
@@ -117,7 +93,7 @@ void RequireFrames(const MonitorModel& model, MonitorEnd end) {
 void Monitor(const Options& options) {
   std::optional<MonitorRecorder> recorder;
   const auto port = MakePort(options.port, options.baud);
-  OpenPort(*port, options.port, options.baud);
+  app::OpenSerialPort(*port, options.port, options.baud);
   // Before the recorder: it would otherwise end the program on a signal.
   const StopFlag stop;
   if (!options.csv.empty()) recorder.emplace(options.csv, MonitorRecorder::Form::kCsv);
