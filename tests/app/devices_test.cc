@@ -130,6 +130,14 @@ TEST(StartCamera, SaysInOneLineWhatIsWrong) {
   EXPECT_THAT(starting(clip, {.loop = hal::LoopMode::kPingPong}), SaysOneLine("needs memory"));
 }
 
+TEST(StartCamera, ACameraInUseIsBadInput) {
+  hal::fake::FakeClock clock;
+  const ImageView picture;
+  hal::fake::FakeCamera camera({.pictures = {&picture, 1}}, clock);
+  camera.FailStarts(1, Errc::kBusy);
+  EXPECT_THAT([&] { StartCamera(camera, "v4l2:/dev/video0"); }, SaysOneLine("/dev/video0"));
+}
+
 TEST(StartCamera, PlaysAVideoByItsAddressOrItsPath) {
   const std::string clip = FACEWIRE_ASSETS "/footage/franck.mp4";
   hal::fake::FakeClock clock;

@@ -281,6 +281,12 @@ struct Row {
   const char* complaint;
 };
 
+constexpr const char* kAttentionNetwork = "n/face_landmark_with_attention.tflite";
+
+void CopyNetworks(const Facewired& f) {
+  std::filesystem::copy(FACEWIRE_ASSETS "/networks", f.scratch / "n");
+}
+
 TEST(Facewired, RefusesBadInputWithOneLineAndExitCodeTwo) {
   const auto with = [](const std::string& text) {
     return [text](Facewired& f) { f.scratch.Write("facewire.toml", text); };
@@ -296,16 +302,29 @@ TEST(Facewired, RefusesBadInputWithOneLineAndExitCodeTwo) {
       {"unknown key", with("[camera]\nwith = 3\n"), "unknown key \"camera.with\""},
       {"out of range", with("[states]\nhold_ms = -4\n"), "states.hold_ms: -4 is out of range"},
       {"no networks", with(networks("/nowhere")), "/nowhere"},
+      {"missing network",
+       [&](Facewired& f) {
+         CopyNetworks(f);
+         std::filesystem::remove(f.scratch / kAttentionNetwork);
+         f.scratch.Write("facewire.toml", networks("n"));
+       },
+       "face_landmark_with_attention.tflite"},
       {"truncated network",
        [&](Facewired& f) {
-         std::filesystem::create_directory(f.scratch / "n");
-         for (const auto& file : std::filesystem::directory_iterator(good)) {
-           std::filesystem::copy(file, f.scratch / "n");
-         }
+         CopyNetworks(f);
          std::filesystem::resize_file(f.scratch / "n/face_detection_short_range.tflite", 1000);
          f.scratch.Write("facewire.toml", networks("n"));
        },
        "face_detection_short_range.tflite"},
+      {"network with a wrong checksum",
+       [&](Facewired& f) {
+         CopyNetworks(f);
+         std::string bytes = ReadAll(f.scratch / kAttentionNetwork);
+         bytes[bytes.size() / 2] ^= 1;
+         f.scratch.Write(kAttentionNetwork, bytes);
+         f.scratch.Write("facewire.toml", networks("n"));
+       },
+       "SHA-256"},
       {"rig with a bone of an unknown landmark",
        [&](Facewired& f) {
          f.scratch.Write("rig.toml",
@@ -319,6 +338,14 @@ TEST(Facewired, RefusesBadInputWithOneLineAndExitCodeTwo) {
          f.scratch.Write("facewire.toml", Configuration("", kRig, "p.profile"));
        },
        "p.profile"},
+      {"profile of another version",
+       [&](Facewired& f) {
+         std::string bytes = ReadAll(kProfile);
+         bytes[8] = 99;  // behind the magic: the version
+         f.scratch.Write("p.profile", bytes);
+         f.scratch.Write("facewire.toml", Configuration("", kRig, "p.profile"));
+       },
+       "p.profile: the profile is of version 99"},
       {"video that is none",
        [&](Facewired& f) {
          f.scratch.Write("x.mp4", "not a video");
@@ -328,6 +355,10 @@ TEST(Facewired, RefusesBadInputWithOneLineAndExitCodeTwo) {
       {"no video", with(networks(good) + "[host]\nline = \"none\"\n"), "there is no video"},
       {"no port", with(networks(good) + "[host]\nline = \"serial:/dev/no-port\"\n"),
        "there is no port /dev/no-port"},
+      {"no camera",
+       with(Replaced(networks(good), "\"replay\"\n", "\"v4l2:/dev/no-camera\"\n") +
+            "[host]\nline = \"none\"\n"),
+       "/dev/no-camera: there is no such device"},
   };
   for (const Row& row : table) {
     Facewired f("");

@@ -10,46 +10,19 @@
 #include "core/track/crop.h"
 #include "core/track/face_detector.h"
 #include "core/track/landmark_network.h"
-#include "core/track/network_memory.h"
-#include "core/track/tflite_model.h"
 #include "core/track/tracker.h"
-#include "tests/core/track/footage.h"
+#include "tests/bench/networks.h"
+#include "tests/support/footage.h"
 
 namespace facewire::track {
 namespace {
 
-constexpr const char* kClip = "franck.mp4";
-constexpr int kFrames = 64;
-
-const std::vector<test::Picture>& Footage() {
-  static const auto pictures = test::ReadFootage(kClip, 0, kFrames);
-  return pictures;
-}
-
-// Forwards and backwards through the footage, so that no frame is far from the one before.
-std::size_t PingPong(std::size_t i) {
-  const std::size_t period = 2 * kFrames - 2;
-  const std::size_t phase = i % period;
-  return phase < kFrames ? phase : period - phase;
-}
-
-// Where the face is in the first frame.
-Region FaceRegion() {
-  return {.center_x_px = 191, .center_y_px = 150, .side_px = 243, .angle_rad = 0.05F};
-}
-
-template <class Network>
-struct Built {
-  explicit Built(const std::vector<std::byte>& file) : block(std::size_t{32} << 20), memory(block) {
-    if (!NetworkMemory::StartXnnpack()) return;
-    const auto model = TfliteModel::Parse(file);
-    ok = model && network.Build(*model, memory);
-  }
-  std::vector<std::byte> block;
-  NetworkMemory memory;
-  Network network;
-  bool ok = false;
-};
+using bench::BM_AttentionNetwork;
+using bench::Built;
+using bench::FaceRegion;
+using bench::Footage;
+using bench::PingPong;
+using bench::Settings;
 
 void BM_DetectorNetworkAndCrop(benchmark::State& state) {
   const auto built =
@@ -60,18 +33,8 @@ void BM_DetectorNetworkAndCrop(benchmark::State& state) {
   }
 }
 
-template <class Network>
-void RunLandmarks(benchmark::State& state, Model model) {
-  const auto built = std::make_unique<Built<Network>>(test::NetworkBytes(model).landmarks);
-  if (!built->ok) return state.SkipWithError("the network does not load");
-  CropRegion(Footage()[0].view(), FaceRegion(), built->network.input());
-  auto out = std::make_unique<CropLandmarks>();
-  for (auto _ : state) benchmark::DoNotOptimize(built->network.Run(*out));
-  if (out->presence < 0.5F) state.SkipWithError("no face in the crop");
-}
-void BM_MeshNetwork(benchmark::State& state) { RunLandmarks<MeshNetwork>(state, Model::kMesh); }
-void BM_AttentionNetwork(benchmark::State& state) {
-  RunLandmarks<AttentionNetwork>(state, Model::kAttention);
+void BM_MeshNetwork(benchmark::State& state) {
+  bench::RunLandmarks<MeshNetwork>(state, Model::kMesh);
 }
 
 void BM_Crop(benchmark::State& state, PixelFormat format) {
@@ -100,14 +63,6 @@ void BM_Update(benchmark::State& state, Model model, PixelFormat format) {
     if (!landmarks) return state.SkipWithError("the face is lost");
     benchmark::DoNotOptimize(landmarks);
   }
-}
-
-void Settings(benchmark::internal::Benchmark* b) {
-  b->MeasureProcessCPUTime()
-      ->Unit(benchmark::kMicrosecond)
-      ->Repetitions(9)
-      ->MinTime(0.1)
-      ->DisplayAggregatesOnly();
 }
 
 BENCHMARK(BM_DetectorNetworkAndCrop)->Apply(Settings);

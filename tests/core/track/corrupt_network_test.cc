@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/track/tracker.h"
-#include "tests/core/track/footage.h"
+#include "tests/support/footage.h"
 
 namespace facewire::track {
 namespace {

@@ -11,7 +11,7 @@
 #include <tuple>
 #include <vector>
 
-#include "tests/core/track/footage.h"
+#include "tests/support/footage.h"
 
 namespace facewire::track {
 namespace {

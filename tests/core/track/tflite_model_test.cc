@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/track/operator_shape.h"
-#include "tests/core/track/footage.h"
+#include "tests/support/footage.h"
 
 namespace facewire::track {
 namespace {

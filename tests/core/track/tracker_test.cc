@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/core/track/footage.h"
+#include "tests/support/footage.h"
 #include "tests/support/allocation_counter.h"
 
 namespace facewire::track {

@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -12,6 +15,11 @@ namespace {
 
 using testing::HasSubstr;
 using testing::StartsWith;
+
+std::string ReadFileOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
 
 TEST(FacewireCli, HelpsAndTellsItsVersion) {
   const Outcome help = RunFacewire({"--help"});
@@ -30,10 +38,26 @@ TEST(FacewireCli, HelpsAndTellsItsVersion) {
 TEST(FacewireCli, AnswersBadInputWithOneLineAndExitCode2) {
   const Scratch scratch;
   const std::string out = scratch.Path("out.jsonl");
+  const std::string clip = FACEWIRE_ASSETS "/footage/franck.mp4";
   const std::string no_video = scratch.Write("no_video.mp4", "this is text");
   const std::string rig =
       scratch.Write("rig.toml", "name = \"r\"\n[[parameter]]\nname = \"jawOpen\"\n");
   const std::string markers = scratch.Write("m.csv", "a_x,a_y,a_z\n1,2,3\n");
+  const std::string no_landmark =
+      scratch.Write("elbow.toml", "name = \"r\"\n[[bone]]\nname = \"b\"\nlandmark = \"elbow\"\n");
+  const std::string unknown_key = scratch.Write(
+      "key.toml", "name = \"r\"\ncolour = \"red\"\n[[parameter]]\nname = \"jawOpen\"\n");
+  std::string profile = ReadFileOf(FACEWIRE_SOURCE_DIR "/app/share/average.profile");
+  profile[8] = 99;  // behind the magic: the version
+  const std::string later_profile = scratch.Write("later.profile", profile);
+  const std::string cut_networks = scratch.Path("cut");
+  std::filesystem::copy(FACEWIRE_ASSETS "/networks", cut_networks);
+  std::filesystem::resize_file(cut_networks + "/face_landmark_with_attention.tflite", 1000);
+  const std::string odd_networks = scratch.Path("odd");
+  std::filesystem::copy(FACEWIRE_ASSETS "/networks", odd_networks);
+  std::string network = ReadFileOf(odd_networks + "/face_landmark_with_attention.tflite");
+  network[network.size() / 2] ^= 1;
+  scratch.Write("odd/face_landmark_with_attention.tflite", network);
   struct Case {
     std::vector<std::string> arguments;
     std::string says;
@@ -48,6 +72,16 @@ TEST(FacewireCli, AnswersBadInputWithOneLineAndExitCode2) {
       {{"track", "v4l2:/dev/no_such_camera", "--out", out}, "/dev/no_such_camera"},
       {{"track", no_video, "--out", out, "--model", "huge"}, "huge"},
       {{"track", no_video, "--out", out, "--networks", "/nowhere"}, "/nowhere"},
+      {{"track", clip, "--out", out, "--networks", cut_networks},
+       "face_landmark_with_attention.tflite"},
+      {{"track", clip, "--out", out, "--networks", odd_networks}, "SHA-256"},
+      {{"retarget", clip, "--rig", no_landmark, "--out", out},
+       "elbow.toml:4:12: bone[0].landmark: no landmark \"elbow\""},
+      {{"retarget", clip, "--rig", unknown_key, "--out", out}, "unknown key \"colour\""},
+      {{"retarget", clip, "--rig", rig, "--profile", later_profile, "--out", out},
+       "later.profile: the profile is of version 99"},
+      {{"monitor", "/dev/no_such_port", "--csv", out}, "/dev/no_such_port"},
+      {{"monitor", "/dev/no_such_port", "--baud", "7"}, "--baud"},
       {{"retarget", markers, "--rig", rig, "--out", out}, "--profile"},
       {{"retarget", no_video, "--rig", "/nowhere.toml", "--out", out}, "/nowhere.toml"},
       {{"retarget", no_video, "--rig", rig, "--neutral", "9:3", "--out", out}, "--neutral 9:3"},

@@ -1,5 +1,5 @@
-#ifndef FACEWIRE_TESTS_CORE_TRACK_FOOTAGE_H_
-#define FACEWIRE_TESTS_CORE_TRACK_FOOTAGE_H_
+#ifndef FACEWIRE_TESTS_SUPPORT_FOOTAGE_H_
+#define FACEWIRE_TESTS_SUPPORT_FOOTAGE_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -55,4 +55,4 @@ Picture Paste(const Picture& inner, int width, int height, int x, int y);
 
 }  // namespace facewire::test
 
-#endif  // FACEWIRE_TESTS_CORE_TRACK_FOOTAGE_H_
+#endif  // FACEWIRE_TESTS_SUPPORT_FOOTAGE_H_

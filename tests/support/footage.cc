@@ -1,4 +1,4 @@
-#include "tests/core/track/footage.h"
+#include "tests/support/footage.h"
 
 #include <algorithm>
 #include <cmath>
