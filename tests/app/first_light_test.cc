@@ -221,6 +221,7 @@ TEST_F(FirstLight, BlinksWhenThePerformerBlinksAndOnlyThen) {
   const std::vector<Pair> pairs = Pairs({"eyeBlinkLeft", "eyeBlinkRight"});
   ASSERT_GT(pairs.size(), 4000U);
   std::vector<float> openings;
+  openings.reserve(pairs.size());
   for (const Pair& pair : pairs) openings.push_back(pair.shown.eyes_open);
   const auto middle = openings.begin() + static_cast<std::ptrdiff_t>(openings.size() / 2);
   std::ranges::nth_element(openings, middle);
@@ -270,6 +271,7 @@ std::vector<std::pair<std::size_t, std::size_t>> FramesOf(std::span<const std::b
   const auto inner =
       Stretches(bytes.size(), [&](std::size_t i) { return bytes[i] != std::byte{0}; });
   std::vector<std::pair<std::size_t, std::size_t>> frames;
+  frames.reserve(inner.size());
   for (const auto& [begin, end] : inner) frames.emplace_back(begin - 1, end + 1);
   return frames;
 }

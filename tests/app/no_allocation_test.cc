@@ -7,8 +7,12 @@
 #include <array>
 #include <cstdlib>
 #include <optional>
+#include <span>
+#include <string>
+#include <thread>
 
 #include "app/application.h"
+#include "core/wire/decoder.h"
 #include "hal/pty/pty_port.h"
 #include "hal/system_clock.h"
 #include "tests/app/scratch.h"
@@ -19,15 +23,18 @@ namespace {
 
 class Context {
  public:
-  Context() {
+  // `pace`: "real-time", as the demo, or "fast", which has no pauses between the pictures.
+  explicit Context(const std::string& pace) {
     scratch.Write("facewire.toml",
                   "[camera]\ndevice = \"replay\"\n[camera.replay]\nfile = \"" FACEWIRE_ASSETS
-                  "/footage/franck.mp4\"\npace = \"fast\"\nmemory_mib = 64\nloop = \"ping-pong\"\n"
-                  "[tracker]\nnetworks = \"" FACEWIRE_ASSETS
-                  "/networks\"\n[character]\nrig = \"" FACEWIRE_SOURCE_DIR
-                  "/app/share/otto.toml\"\nprofile = \"" FACEWIRE_SOURCE_DIR
-                  "/app/share/average.profile\"\n[neutral]\nfolder = \"state\"\n"
-                  "[host]\nline = \"pty:line\"\ndescribe_every_s = 1.0\n");
+                  "/footage/franck.mp4\"\npace = \"" +
+                      pace +
+                      "\"\nmemory_mib = 64\nloop = \"ping-pong\"\n"
+                      "[tracker]\nnetworks = \"" FACEWIRE_ASSETS
+                      "/networks\"\n[character]\nrig = \"" FACEWIRE_SOURCE_DIR
+                      "/app/share/otto.toml\"\nprofile = \"" FACEWIRE_SOURCE_DIR
+                      "/app/share/average.profile\"\n[neutral]\nfolder = \"state\"\n"
+                      "[host]\nline = \"pty:line\"\ndescribe_every_s = 1.0\n");
     application.emplace(ApplicationOptions{.config = scratch / "facewire.toml", .fake = true},
                         clock);
     application->Open();
@@ -51,7 +58,7 @@ class Context {
 
 TEST(NoAllocation, TheServiceRunsWithoutTheHeapFromFrame10ToFrame1000) {
   if (!test::AllocationCounter::kAvailable) GTEST_SKIP() << test::AllocationCounter::kWhyNot;
-  Context c;
+  Context c("fast");
   test::AllocationCounter counter;
   const ServiceStats& stats = c.application->service().stats();
   while (stats.frames < 10) ASSERT_TRUE(c.Tick());
@@ -70,9 +77,48 @@ TEST(NoAllocation, TheServiceRunsWithoutTheHeapFromFrame10ToFrame1000) {
   EXPECT_EQ(c.application->service().state(), ServiceState::kTracking);
 }
 
+// The program's own loop, with its log and its notes to a supervisor, at the pace of a camera:
+// ticks wait for pictures. The host arms and ends, by the frames that it hears of.
+TEST(NoAllocation, TheWholeProcessRunsWithoutTheHeapInRealTimeToo) {
+  if (!test::AllocationCounter::kAvailable) GTEST_SKIP() << test::AllocationCounter::kWhyNot;
+  Context c("real-time");
+  test::AllocationCounter counter;
+  Requests requests;
+  std::uint32_t last = 0;
+  std::jthread host([&](const std::stop_token& stop) {
+    wire::Decoder decoder;
+    bool armed = false;
+    while (!stop.stop_requested()) {
+      const auto read = c.reader->Read(c.buffer, std::chrono::milliseconds(100));
+      if (!read || requests.quit.load() > 0) continue;
+      std::span<const std::byte> rest = std::span(c.buffer).first(*read);
+      while (!rest.empty()) {
+        const auto got = decoder.Next(rest);
+        const auto* pose = got ? std::get_if<wire::Pose>(&got->message) : nullptr;
+        if (pose != nullptr) last = pose->frame_seq;
+      }
+      if (!armed && last >= 10) {
+        counter.Arm();
+        armed = true;
+      }
+      if (last < 1000) continue;
+      counter.Disarm();
+      requests.quit = 1;
+    }
+  });
+  c.application->Run(requests, Duration::zero());
+  host.request_stop();
+  host.join();
+  counter.PrintFirst();
+  EXPECT_GE(last, 1000U);
+  EXPECT_EQ(counter.allocations(), 0U);
+  EXPECT_EQ(counter.frees(), 0U);
+  EXPECT_GT(c.application->Report().faces, 900U);
+}
+
 TEST(NoAllocation, AnAllocationOnPurposeIsSeen) {
   if (!test::AllocationCounter::kAvailable) GTEST_SKIP() << test::AllocationCounter::kWhyNot;
-  Context c;
+  Context c("fast");
   test::AllocationCounter counter;
   const ServiceStats& stats = c.application->service().stats();
   while (stats.frames < 10) ASSERT_TRUE(c.Tick());

@@ -32,6 +32,7 @@ class Process {
           const std::vector<std::pair<std::string, std::string>>& environment = {})
       : out_(std::move(out)), err_(std::move(err)) {
     std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
     for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
     pid_ = ::fork();

@@ -55,7 +55,7 @@ std::string BadInputOf(Call call) {
   try {
     call();
   } catch (const BadInput& error) {
-    const std::string message = error.what();
+    std::string message = error.what();
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     return message;
   }
