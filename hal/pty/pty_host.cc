@@ -15,7 +15,7 @@
 
 #include "hal/posix/byte_stream.h"
 #include "hal/posix/errors.h"
-#include "hal/pty/raw_mode.h"
+#include "hal/posix/raw_mode.h"
 
 namespace facewire::hal::pty {
 namespace {
@@ -50,7 +50,7 @@ Result<> PtyHost::Open() {
     // and from now on the kernel reports whether somebody has it open.
     posix::UniqueFd slave(::open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC));
     if (!slave) return posix::OpenError(errno);
-    if (Result<> raw = SetRaw(slave.get()); !raw) return raw;
+    if (Result<> raw = posix::SetRaw(slave.get()); !raw) return raw;
   }
   std::string device_path = name.data();
   if (Result<> linked = MakeLink(device_path); !linked) return linked;

@@ -8,8 +8,8 @@
 
 #include "hal/posix/byte_stream.h"
 #include "hal/posix/errors.h"
+#include "hal/posix/raw_mode.h"
 #include "hal/posix/tty_lock.h"
-#include "hal/pty/raw_mode.h"
 
 namespace facewire::hal::pty {
 namespace {
@@ -49,7 +49,7 @@ Result<> PtyPort::Open() {
   // No TIOCEXCL: a pseudo-terminal keeps that flag for as long as its maker lives, so a service
   // that crashed could never open its own line again.
   if (Result<> locked = posix::LockTty(fd.get()); !locked) return locked;
-  if (Result<> raw = SetRaw(fd.get()); !raw) return raw;
+  if (Result<> raw = posix::SetRaw(fd.get()); !raw) return raw;
   fd_ = std::move(fd);
   return {};
 }

@@ -1,16 +1,20 @@
 #include "hal/serialport/serialport_port.h"
 
+#include <fcntl.h>
 #include <libserialport.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
+#include <termios.h>
 
 #include <array>
 #include <cerrno>
 #include <climits>
 #include <cstdlib>
+#include <string_view>
 
 #include "hal/posix/byte_stream.h"
 #include "hal/posix/errors.h"
+#include "hal/posix/raw_mode.h"
 #include "hal/posix/tty_lock.h"
 
 namespace facewire::hal::serialport {
@@ -58,6 +62,16 @@ sp_return Configure(sp_port* port, int baud) noexcept {
   return SP_OK;
 }
 
+// The kernel's fixed name for a serial line of a USB gadget
+// (drivers/usb/gadget/function/u_serial.c).
+bool IsGadget(std::string_view device) noexcept { return device.starts_with("/dev/ttyGS"); }
+
+Result<> KeepOthersOut(int fd) noexcept {
+  if (Result<> locked = posix::LockTty(fd); !locked) return locked;
+  // Keeps out programs that do not lock; the kernel forgets it at the last close.
+  return ::ioctl(fd, TIOCEXCL) == 0 ? Result<>{} : Errc::kIo;
+}
+
 }  // namespace
 
 void SerialportPort::ClosePort::operator()(sp_port* port) const noexcept {
@@ -70,15 +84,18 @@ SerialportPort::SerialportPort(SerialportConfig config) : config_(std::move(conf
 SerialportPort::~SerialportPort() { SerialportPort::Close(); }
 
 Result<> SerialportPort::Open() {
-  if (port_) return {};
+  if (fd_ >= 0) return {};
   std::array<char, PATH_MAX> device;
   if (::realpath(config_.path.c_str(), device.data()) == nullptr) return posix::OpenError(errno);
   struct stat node {};
   if (::stat(device.data(), &node) != 0) return posix::OpenError(errno);
   if (!S_ISCHR(node.st_mode)) return Errc::kUnsupported;
+  return IsGadget(device.data()) ? OpenGadget(device.data()) : OpenThroughLibrary(device.data());
+}
 
+Result<> SerialportPort::OpenThroughLibrary(const char* device) {
   sp_port* named = nullptr;
-  if (const sp_return found = sp_get_port_by_name(device.data(), &named); found != SP_OK) {
+  if (const sp_return found = sp_get_port_by_name(device, &named); found != SP_OK) {
     return OpenErrorOf(found);
   }
   std::unique_ptr<sp_port, ClosePort> port(named);
@@ -87,9 +104,7 @@ Result<> SerialportPort::Open() {
   }
   int fd = -1;
   if (sp_get_port_handle(named, &fd) != SP_OK) return Errc::kIo;
-  if (Result<> locked = posix::LockTty(fd); !locked) return locked;
-  // Keeps out programs that do not lock; the kernel forgets it at the last close.
-  if (::ioctl(fd, TIOCEXCL) != 0) return Errc::kIo;
+  if (Result<> alone = KeepOthersOut(fd); !alone) return alone;
   if (const sp_return configured = Configure(named, config_.baud); configured != SP_OK) {
     return OpenErrorOf(configured);
   }
@@ -99,18 +114,35 @@ Result<> SerialportPort::Open() {
   return {};
 }
 
+// What libserialport 0.1.1 opens it first asks for its modem-control lines (TIOCMGET), and it gives
+// up when there are none. The gadget's driver has none, and no bit rate either: bytes go at USB's
+// speed.
+Result<> SerialportPort::OpenGadget(const char* device) {
+  posix::UniqueFd fd;
+  do {
+    fd.Reset(::open(device, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  } while (!fd && errno == EINTR);
+  if (!fd) return posix::OpenError(errno);
+  if (Result<> alone = KeepOthersOut(fd.get()); !alone) return alone;
+  if (Result<> raw = posix::SetRaw(fd.get()); !raw) return raw;
+  gadget_ = std::move(fd);
+  fd_ = gadget_.get();
+  return {};
+}
+
 void SerialportPort::Close() {
   // The kernel holds a close up for as long as half a minute while output waits for a far end that
   // takes none. A line that flows is left to send its last bytes, which bring the rig to rest.
-  if (port_ && stalled_) sp_flush(port_.get(), SP_BUF_OUTPUT);
+  if (fd_ >= 0 && stalled_) ::tcflush(fd_, TCOFLUSH);
   port_.reset();
+  gadget_.Reset();
   fd_ = -1;
   stalled_ = false;
 }
 
 Result<std::size_t> SerialportPort::Write(std::span<const std::byte> bytes,
                                           std::chrono::milliseconds timeout) {
-  if (!port_) return Errc::kDisconnected;
+  if (fd_ < 0) return Errc::kDisconnected;
   Result<std::size_t> count = posix::WriteFor(fd_, bytes, timeout);
   stalled_ = !count || *count < bytes.size();
   if (!count && count.error() == Errc::kDisconnected) Close();
@@ -119,7 +151,7 @@ Result<std::size_t> SerialportPort::Write(std::span<const std::byte> bytes,
 
 Result<std::size_t> SerialportPort::Read(std::span<std::byte> buffer,
                                          std::chrono::milliseconds timeout) {
-  if (!port_) return Errc::kDisconnected;
+  if (fd_ < 0) return Errc::kDisconnected;
   Result<std::size_t> count = posix::ReadFor(fd_, buffer, timeout);
   if (!count && count.error() == Errc::kDisconnected) Close();
   return count;

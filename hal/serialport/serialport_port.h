@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "hal/posix/unique_fd.h"
 #include "hal/serial_port.h"
 
 struct sp_port;  // libserialport's; its header stays in the source file
@@ -17,6 +18,9 @@ struct SerialportConfig {
 
 // A real serial line (UART, USB adapter, USB gadget) through libserialport: 8N1, no flow control,
 // raw, any bit rate the driver accepts. Nobody else can open the line meanwhile.
+//
+// The one exception is a USB gadget's own end (ttyGS), which libserialport cannot open: see
+// OpenGadget.
 //
 // libserialport looks the device up, opens it and sets the rate; it does not carry the bytes: in
 // 0.1.1 its waits run on the calendar's clock and its read spins on a line that was hung up.
@@ -39,10 +43,15 @@ class SerialportPort final : public SerialPort {
     void operator()(sp_port* port) const noexcept;
   };
 
+  Result<> OpenThroughLibrary(const char* device);
+  Result<> OpenGadget(const char* device);
+
   SerialportConfig config_;
-  std::unique_ptr<sp_port, ClosePort> port_;  // open, or none
-  int fd_ = -1;                               // port_'s
-  bool stalled_ = false;                      // the last write was cut short by its deadline
+  // One of them while the line is open, and fd_ is its descriptor; none, and -1, otherwise.
+  std::unique_ptr<sp_port, ClosePort> port_;
+  posix::UniqueFd gadget_;
+  int fd_ = -1;
+  bool stalled_ = false;  // the last write was cut short by its deadline
 };
 
 }  // namespace facewire::hal::serialport

@@ -1,7 +1,9 @@
 #ifndef FACEWIRE_TESTS_HAL_FAR_END_H_
 #define FACEWIRE_TESTS_HAL_FAR_END_H_
 
+#include <fcntl.h>
 #include <poll.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,6 +14,8 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "hal/posix/unique_fd.h"
 
 namespace facewire::hal::test {
 
@@ -48,6 +52,19 @@ inline std::vector<std::byte> ReceiveUpTo(int fd, std::size_t count) {
   }
   bytes.resize(have);
   return bytes;
+}
+
+// A real serial device as the far end: raw, at 115200 baud, and empty, because bytes of an earlier
+// test may still have been on the way.
+inline posix::UniqueFd OpenRawTty(const std::string& path) {
+  posix::UniqueFd fd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
+  termios settings{};
+  if (::tcgetattr(fd.get(), &settings) != 0) throw std::runtime_error(path + " is no serial line");
+  ::cfmakeraw(&settings);
+  ::cfsetspeed(&settings, B115200);
+  ::tcsetattr(fd.get(), TCSANOW, &settings);
+  ::tcflush(fd.get(), TCIOFLUSH);
+  return fd;
 }
 
 // A folder of its own for one test, gone with it.

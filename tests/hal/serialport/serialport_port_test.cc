@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <termios.h>
 
 #include <array>
 #include <cstdlib>
@@ -23,22 +22,14 @@ constexpr const char* kPairVariable = "FACEWIRE_TEST_TTY";
 
 // Two real serial devices that are wired to each other, named in the environment as
 // FACEWIRE_TEST_TTY=/dev/ttyX,/dev/ttyY: on the emulated board ttyACM0 and ttyGS0. The port under
-// test is the first. Bytes of an earlier test may still be on the way, so both ends start empty.
+// test is the first.
 class TtyLine {
  public:
   TtyLine() {
     const std::string pair = std::getenv(kPairVariable);
     const std::size_t comma = pair.find(',');
     near_ = pair.substr(0, comma);
-    far_.Reset(::open(pair.substr(comma + 1).c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
-    termios settings{};
-    if (::tcgetattr(far_.get(), &settings) != 0) {
-      throw std::runtime_error("the second device of FACEWIRE_TEST_TTY is not a serial line");
-    }
-    ::cfmakeraw(&settings);
-    ::cfsetspeed(&settings, B115200);
-    ::tcsetattr(far_.get(), TCSANOW, &settings);
-    ::tcflush(far_.get(), TCIOFLUSH);
+    far_ = test::OpenRawTty(pair.substr(comma + 1));
     port_ = std::make_unique<SerialportPort>(SerialportConfig{.path = near_, .baud = 115200});
   }
   static const char* WhyUnavailable() {

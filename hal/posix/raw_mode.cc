@@ -1,10 +1,10 @@
-#include "hal/pty/raw_mode.h"
+#include "hal/posix/raw_mode.h"
 
 #include <termios.h>
 
 #include <cerrno>
 
-namespace facewire::hal::pty {
+namespace facewire::hal::posix {
 
 Result<> SetRaw(int fd) noexcept {
   termios settings{};
@@ -18,4 +18,4 @@ Result<> SetRaw(int fd) noexcept {
   return {};
 }
 
-}  // namespace facewire::hal::pty
+}  // namespace facewire::hal::posix
