@@ -192,7 +192,7 @@ void Doctor(const DoctorOptions& options) {
   findings.push_back(CheckNetworks(options));
   CheckConfig(options, findings);
   CheckDevices("camera", {"video"}, "video", findings);
-  CheckDevices("serial port", {"ttyACM", "ttyUSB", "ttyAMA"}, "dialout", findings);
+  CheckDevices("serial port", {"ttyACM", "ttyUSB", "ttyAMA", "ttyGS"}, "dialout", findings);
   findings.push_back(CheckGroup("video"));
   findings.push_back(CheckGroup("dialout"));
   findings.push_back(CheckClock());
