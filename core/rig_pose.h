@@ -11,8 +11,8 @@
 
 namespace facewire {
 
-// A value for every channel of a rig, in the order of Rig::channels (core/rig/rig.h) and in the unit of
-// each channel's kind.
+// A value for every channel of a rig, in the order of Rig::channels (core/rig/rig.h) and in the
+// unit of each channel's kind.
 struct RigPose {
   std::uint64_t seq = 0;  // of the frame it answers
   Time captured{};        // of that frame

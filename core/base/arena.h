@@ -31,7 +31,8 @@ class Arena {
     return at;
   }
 
-  // `count` value-initialised Ts; an empty span when the rest of the block is too small (or count is 0).
+  // `count` value-initialised Ts; an empty span when the rest of the block is too small (or count
+  // is 0).
   template <class T>
   [[nodiscard]] std::span<T> MakeArray(std::size_t count) noexcept {
     static_assert(std::is_trivially_destructible_v<T>, "nobody destroys what lies in an arena");

@@ -3,24 +3,24 @@
 
 #include <cstddef>
 
-// Every fixed capacity of facewire, in one place. Raising one costs memory only; `facewired --memory`
-// prints what.
+// Every fixed capacity of facewire, in one place. Raising one costs memory only; `facewired
+// --memory` prints what.
 namespace facewire {
 
-inline constexpr std::size_t kMaxLandmarks = 478;  // attention network: 468 mesh + 2 x 5 iris points
+inline constexpr std::size_t kMaxLandmarks = 478;  // attention network: 468 mesh, 2 x 5 iris
 inline constexpr std::size_t kMeshLandmarks = 468;
 inline constexpr std::size_t kMaxBones = 48;
-inline constexpr std::size_t kMaxChannels = 192;         // values in one RigPose
-inline constexpr std::size_t kMaxDrives = 8;             // signals that add up to one channel
-inline constexpr std::size_t kMaxSignals = 96;           // outputs of the expression mapping
+inline constexpr std::size_t kMaxChannels = 192;          // values in one RigPose
+inline constexpr std::size_t kMaxDrives = 8;              // signals that add up to one channel
+inline constexpr std::size_t kMaxSignals = 96;            // outputs of the expression mapping
 inline constexpr std::size_t kMaxExpressionInputs = 384;  // 3 x landmarks that a profile reads
 inline constexpr std::size_t kMaxMarkers = kMaxExpressionInputs / 3;
 inline constexpr std::size_t kMaxTrainingSamples = 1024;
-inline constexpr std::size_t kMaxRegions = 16;           // of the face, in one profile
-inline constexpr std::size_t kMaxRegionGaps = 32;        // between two markers, in one region
-inline constexpr std::size_t kMaxNeutralFrames = 128;    // of which a neutral is the median
+inline constexpr std::size_t kMaxRegions = 16;         // of the face, in one profile
+inline constexpr std::size_t kMaxRegionGaps = 32;      // between two markers, in one region
+inline constexpr std::size_t kMaxNeutralFrames = 128;  // of which a neutral is the median
 inline constexpr std::size_t kMaxNameLength = 31;
-inline constexpr std::size_t kMaxWirePayload = 1024;     // bytes of one message before COBS
+inline constexpr std::size_t kMaxWirePayload = 1024;  // bytes of one message before COBS
 
 }  // namespace facewire
 

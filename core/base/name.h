@@ -16,10 +16,12 @@ class ShortName {
  public:
   constexpr ShortName() noexcept = default;
 
-  // nullopt when the text is empty, longer than kMaxNameLength, or has a character outside '!'..'~'.
+  // nullopt when the text is empty, longer than kMaxNameLength, or has a character outside
+  // '!'..'~'.
   static constexpr std::optional<ShortName> From(std::string_view text) noexcept {
     if (text.empty() || text.size() > kMaxNameLength) return std::nullopt;
-    if (!std::ranges::all_of(text, [](char c) { return c >= '!' && c <= '~'; })) return std::nullopt;
+    if (!std::ranges::all_of(text, [](char c) { return c >= '!' && c <= '~'; }))
+      return std::nullopt;
     ShortName name;
     std::ranges::copy(text, name.text_.begin());
     name.size_ = static_cast<std::uint8_t>(text.size());

@@ -60,8 +60,8 @@ MotionOutput Motion::Update(const state::Inputs& in, const RigPose& wish) noexce
   return {sent_, decision.state, decision.torque, decision.finished};
 }
 
-// Within the limits before it is blended: a blend of huge numbers is none. A value that is missing or
-// not a number stays as it was sent, because a blend would never be rid of it.
+// Within the limits before it is blended: a blend of huge numbers is none. A value that is missing
+// or not a number stays as it was sent, because a blend would never be rid of it.
 void Motion::Take(const RigPose& wish) noexcept {
   for (std::size_t i = 0; i < latest_.count; ++i) {
     const bool usable = i < wish.count && !std::isnan(wish.values[i]);

@@ -13,9 +13,10 @@
 
 namespace facewire {
 
-// What a channel's value means. The numbers are those of the wire (core/wire/README.md): append only.
+// What a channel's value means. The numbers are those of the wire (core/wire/README.md): append
+// only.
 enum class ChannelKind : std::uint8_t {
-  kParameter = 0,  // a blend-shape weight or any named number; unit: the rig's own, blend shapes 0..1
+  kParameter = 0,  // a blend-shape weight or any named number; unit: the rig's, blend shapes 0..1
   kPositionX = 1,  // a bone's offset from its rest position, cm; axes as the head frame of FacePose
   kPositionY = 2,
   kPositionZ = 3,
@@ -28,16 +29,16 @@ constexpr bool IsPosition(ChannelKind k) noexcept {
 }
 constexpr bool IsRotation(ChannelKind k) noexcept { return k >= ChannelKind::kPitch; }
 
-// One part of the sum that drives a channel: gain * signal. Signals are the outputs of the expression
-// mapping by name ("jawOpen"), and the head: "head.pitch", "head.yaw", "head.roll" in degrees,
-// "head.x", "head.y", "head.z" in cm from where the head was in the neutral capture.
+// One part of the sum that drives a channel: gain * signal. Signals are the outputs of the
+// expression mapping by name ("jawOpen"), and the head: "head.pitch", "head.yaw", "head.roll" in
+// degrees, "head.x", "head.y", "head.z" in cm from where the head was in the neutral capture.
 struct Drive {
   ShortName signal;
   float gain = 1;
 };
 
-// One number that the host receives. Position channels without drives follow the geometry mapping of
-// their bone; every other channel is neutral + the sum of its drives.
+// One number that the host receives. Position channels without drives follow the geometry mapping
+// of their bone; every other channel is neutral + the sum of its drives.
 struct Channel {
   ShortName name;  // of the parameter ("jawOpen"), or "bone.axis" ("jaw.pitch")
   ChannelKind kind = ChannelKind::kParameter;
@@ -51,8 +52,8 @@ struct Channel {
   InlineVector<Drive, kMaxDrives> drives;
 };
 
-// A bone of the character. A bone with a landmark is a sample of the geometry mapping: the performer's
-// neutral landmark corresponds to the bone's rest position.
+// A bone of the character. A bone with a landmark is a sample of the geometry mapping: the
+// performer's neutral landmark corresponds to the bone's rest position.
 struct Bone {
   ShortName name;
   Point3 rest_cm{};            // in the character's space

@@ -25,7 +25,6 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 const char* const kRig = FACEWIRE_SOURCE_DIR "/app/share/otto.toml";
 const char* const kProfile = FACEWIRE_SOURCE_DIR "/app/share/average.profile";

@@ -31,6 +31,8 @@ void AddCommands(CLI::App& facewire) {
 
 }  // namespace
 
+// Only a wrong declaration of an option throws outside the try, and ending is right then.
+// NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
   CLI::App facewire("facewire: from a performer's face to a character's bones and blend shapes.",
                     "facewire");

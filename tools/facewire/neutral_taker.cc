@@ -8,7 +8,7 @@
 namespace facewire::tools {
 namespace {
 
-constexpr std::int64_t kDefault_us = 2'000'000;
+constexpr std::int64_t kDefaultUs = 2'000'000;
 
 }  // namespace
 
@@ -36,9 +36,9 @@ NeutralTaker::NeutralTaker(const std::string& option, const std::string& range)
 bool NeutralTaker::Add(const Moment& moment) {
   seen_ = moment.frame + 1;
   const bool inside =
-      last_ == 0 ? moment.t_us < kDefault_us : moment.frame >= first_ && moment.frame < last_;
+      last_ == 0 ? moment.t_us < kDefaultUs : moment.frame >= first_ && moment.frame < last_;
   if (inside && moment.face) capture_.Add(*moment.face);
-  return last_ == 0 ? moment.t_us >= kDefault_us : seen_ >= last_;
+  return last_ == 0 ? moment.t_us >= kDefaultUs : seen_ >= last_;
 }
 
 retarget::Neutral NeutralTaker::Take() {

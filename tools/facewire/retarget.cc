@@ -42,7 +42,7 @@ std::filesystem::path ProfilePath(const RetargetOptions& options) {
 class Character {
  public:
   Character(const RetargetOptions& options, Rig rig)
-      : rig_(std::move(rig)), profile_(app::LoadProfile(ProfilePath(options))) {
+      : rig_(rig), profile_(app::LoadProfile(ProfilePath(options))) {
     if (const auto unknown = retarget::FirstUnknownSignal(rig_, &profile_->mapping())) {
       throw app::BadInput(options.rig + ": the signal " + std::string(unknown->view()) +
                           " is driven by, but the profile does not give it");

@@ -46,7 +46,7 @@ def main():
     at = np.array([[0.1, -0.2], [1.5, 1.0]])
     print("#ifndef FACEWIRE_TESTS_CORE_RBF_GOLDEN_H_\n#define FACEWIRE_TESTS_CORE_RBF_GOLDEN_H_\n")
     print("#include <array>\n\n#include \"core/rbf/kernel.h\"\n")
-    print("// Written by tools/generate/rbf_golden.py (NumPy). clang-format off")
+    print("// Written by tools/generate/rbf_golden.py (NumPy).\n// clang-format off")
     print("namespace facewire::rbf::golden {\n")
     print(f"inline constexpr std::array<float, 18> kSamples = {{{numbers(x)}}};")
     print(f"inline constexpr std::array<float, 18> kTargets = {{{numbers(t)}}};")

@@ -48,14 +48,14 @@ class View {
   double unit_px() const { return unit_px_; }
 
   // A point of the face's surface.
-  cv::Point2d Face(Vec p) const { return Flat(rotation_ * p); }
+  cv::Point2d Face(const Vec& p) const { return Flat(rotation_ * p); }
   // A point of the head's outline, which looks the same from every side: it only rolls.
-  cv::Point2d Outline(Vec p) const { return Flat(roll_ * p); }
+  cv::Point2d Outline(const Vec& p) const { return Flat(roll_ * p); }
   // A point of the stand, which does not move.
-  cv::Point2d Stand(Vec p) const { return Flat(p); }
+  cv::Point2d Stand(const Vec& p) const { return Flat(p); }
 
  private:
-  cv::Point2d Flat(Vec p) const {
+  cv::Point2d Flat(const Vec& p) const {
     return {origin_.x + unit_px_ * p[0], origin_.y - unit_px_ * p[1]};
   }
 
@@ -79,8 +79,8 @@ std::vector<cv::Point2d> Bezier(cv::Point2d a, cv::Point2d b, cv::Point2d c, cv:
 // A rounded shape between ellipse (exponent 2) and box, from angle `from` to `to` (degrees,
 // counter-clockwise).
 template <class Project>
-std::vector<cv::Point2d> Shell(Vec centre, double rx, double ry, double exponent, double from,
-                               double to, const Project& project) {
+std::vector<cv::Point2d> Shell(const Vec& centre, double rx, double ry, double exponent,
+                               double from, double to, const Project& project) {
   constexpr int kSteps = 64;
   std::vector<cv::Point2d> line;
   for (int i = 0; i <= kSteps; ++i) {
@@ -95,7 +95,7 @@ std::vector<cv::Point2d> Shell(Vec centre, double rx, double ry, double exponent
 }
 
 void DrawStand(const View& view, Canvas& canvas) {
-  const auto stand = [&](Vec p) { return view.Stand(p); };
+  const auto stand = [&](const Vec& p) { return view.Stand(p); };
   const std::array neck{stand({-0.30, -0.8, 0}), stand({0.30, -0.8, 0}), stand({0.36, -1.5, 0}),
                         stand({-0.36, -1.5, 0})};
   canvas.Fill(neck, kMetal);
@@ -108,7 +108,7 @@ void DrawStand(const View& view, Canvas& canvas) {
 }
 
 void DrawPlates(const CharacterPose& pose, const View& view, Canvas& canvas) {
-  const auto outline = [&](Vec p) { return view.Outline(p); };
+  const auto outline = [&](const Vec& p) { return view.Outline(p); };
   const double edge = view.unit_px() * 0.035;
   // The aerial and the ears sit behind the shell.
   const std::array aerial{outline({0, 1.0, 0}), outline({0, 1.42, 0})};
@@ -163,7 +163,7 @@ void DrawEye(const CharacterPose& pose, double side, const View& view, Canvas& c
   constexpr double kRestingLid = 0.14;
   const Vec centre{side * 0.42, 0.20, kZ};
   const double px = view.unit_px();
-  const auto face = [&](Vec p) { return view.Face(p); };
+  const auto face = [&](const Vec& p) { return view.Face(p); };
   canvas.Fill(Shell(centre, kRadius, kRadius, 2, 0, 360, face), kEyeWhite);
   const cv::Point2d iris = view.Face(centre + Vec{0.10 * pose.gaze_x, 0.09 * pose.gaze_y, 0.05});
   canvas.Disc(iris, px * 0.135, kIris);

@@ -40,6 +40,7 @@ void DrawLandmarks(const Landmarks& landmarks, cv::Point2d origin, cv::Size2d zo
   for (std::size_t i = 0; i < kMeshLandmarks; ++i) canvas.Disc(at(i), 0.9, palette::kTrack);
   const auto outline = [&](const auto& indices, double width_px) {
     std::vector<cv::Point2d> line;
+    line.reserve(std::size(indices));
     for (const int index : indices) line.push_back(at(static_cast<std::size_t>(index)));
     canvas.Stroke(line, kContour, width_px, true);
   };

@@ -16,28 +16,28 @@ struct Interest {
   double (*amount)(const CharacterPose&);
 };
 constexpr double kShown = 0.25;
-constexpr double kHeadShown_deg = 30;  // that turns the head by kShown of a full amount
+constexpr double kHeadShownDeg = 30;  // that turns the head by kShown of a full amount
 
 constexpr std::array<Interest, 9> kInterests{{
     {"eyes shut", [](const CharacterPose& p) { return std::min(p.lid_left, p.lid_right); }},
     {"mouth open", [](const CharacterPose& p) { return p.jaw; }},
     {"smile",
      [](const CharacterPose& p) { return (p.corner_left_y + p.corner_right_y) / 2 - p.jaw; }},
-    {"head turned", [](const CharacterPose& p) { return std::abs(p.yaw_deg) / kHeadShown_deg; }},
+    {"head turned", [](const CharacterPose& p) { return std::abs(p.yaw_deg) / kHeadShownDeg; }},
     {"brows up", [](const CharacterPose& p) { return (p.brow_left + p.brow_right) / 2; }},
     {"lips pursed",
      [](const CharacterPose& p) { return -(p.corner_left_x + p.corner_right_x) / 2; }},
-    {"head tilted", [](const CharacterPose& p) { return std::abs(p.roll_deg) / kHeadShown_deg; }},
+    {"head tilted", [](const CharacterPose& p) { return std::abs(p.roll_deg) / kHeadShownDeg; }},
     {"brows down", [](const CharacterPose& p) { return -(p.brow_left + p.brow_right) / 2; }},
-    {"head nods", [](const CharacterPose& p) { return std::abs(p.pitch_deg) / kHeadShown_deg; }},
+    {"head nods", [](const CharacterPose& p) { return std::abs(p.pitch_deg) / kHeadShownDeg; }},
 }};
 
 double Restlessness(const CharacterPose& p) {
   const auto square = [](double v) { return v * v; };
   return square(p.jaw) + square(p.lid_left) + square(p.lid_right) + square(p.brow_left) +
          square(p.brow_right) + square(p.corner_left_x) + square(p.corner_right_x) +
-         square(p.corner_left_y) + square(p.corner_right_y) + square(p.yaw_deg / kHeadShown_deg) +
-         square(p.pitch_deg / kHeadShown_deg) + square(p.roll_deg / kHeadShown_deg);
+         square(p.corner_left_y) + square(p.corner_right_y) + square(p.yaw_deg / kHeadShownDeg) +
+         square(p.pitch_deg / kHeadShownDeg) + square(p.roll_deg / kHeadShownDeg);
 }
 
 }  // namespace

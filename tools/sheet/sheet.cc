@@ -61,6 +61,7 @@ std::vector<std::size_t> Liveliest(const Rig& rig, std::span<const Moment> momen
   std::ranges::stable_sort(by_motion);
   by_motion.resize(std::min(by_motion.size(), kBarRows));
   std::vector<std::size_t> channels;
+  channels.reserve(by_motion.size());
   for (const auto& [motion, index] : by_motion) channels.push_back(index);
   std::ranges::sort(channels);
   return channels;

@@ -5,7 +5,8 @@
 
 #include "core/rbf/kernel.h"
 
-// Written by tools/generate/rbf_golden.py (NumPy). clang-format off
+// Written by tools/generate/rbf_golden.py (NumPy).
+// clang-format off
 namespace facewire::rbf::golden {
 
 inline constexpr std::array<float, 18> kSamples = {0.02364325F, 0.9009274F, -0.7116808F, 0.8972989F, -0.3763371F, -0.1533471F, 0.6554052F, -0.1816017F, 0.09918737F, -0.9448818F, 0.5070262F, 0.07628663F, -0.3405366F, 0.5768574F, -0.3936103F, -0.09300422F, -0.7319166F, -0.193774F};
