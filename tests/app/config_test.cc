@@ -13,7 +13,6 @@ namespace facewire::app {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::MatchesRegex;
 using ::testing::StartsWith;
 
 std::string Complaint(const std::string& text) {

@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/footage.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/footage.h"
 
 namespace facewire::track {
 namespace {
