@@ -54,8 +54,8 @@ Result<Similarity> FitSimilarity(std::span<const PointPair> pairs) noexcept {
     to_spread += pair.weight * to.squaredNorm();
   }
 
-  if (!covariance.allFinite()) return Errc::kSingular;
   const Eigen::JacobiSVD<Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  if (svd.info() != Eigen::Success) return Errc::kSingular;  // not finite
   const Matrix3d& u = svd.matrixU();
   const Matrix3d& v = svd.matrixV();
   // The last axis is turned over where the best orthogonal matrix would be a reflection.
