@@ -36,14 +36,19 @@ struct Context {
   }
 };
 
+Context ContextOf(const golden::Case& example) {
+  Context c;
+  c.config = {example.kernel, example.tail, example.epsilon, example.smoothing,
+              example.tail_smoothing};
+  c.samples.assign(golden::kSamples.begin(), golden::kSamples.end());
+  c.targets.assign(golden::kTargets.begin(), golden::kTargets.end());
+  c.inputs = c.outputs = 2;
+  return c;
+}
+
 TEST(Rbf, AgreesWithValuesComputedIndependently) {
   for (const golden::Case& expected : golden::kCases) {
-    Context c;
-    c.config = {expected.kernel, expected.tail, expected.epsilon, expected.smoothing,
-                expected.tail_smoothing};
-    c.samples.assign(golden::kSamples.begin(), golden::kSamples.end());
-    c.targets.assign(golden::kTargets.begin(), golden::kTargets.end());
-    c.inputs = c.outputs = 2;
+    Context c = ContextOf(expected);
     SCOPED_TRACE(testing::Message()
                  << "kernel " << static_cast<int>(expected.kernel) << " tail "
                  << static_cast<int>(expected.tail) << " smoothing " << expected.smoothing);
@@ -60,12 +65,7 @@ TEST(Rbf, AgreesWithValuesComputedIndependently) {
 
 TEST(Rbf, RippasFormulaEqualsLeavingASampleOut) {
   for (const golden::Case& expected : golden::kCases) {
-    Context c;
-    c.config = {expected.kernel, expected.tail, expected.epsilon, expected.smoothing,
-                expected.tail_smoothing};
-    c.samples.assign(golden::kSamples.begin(), golden::kSamples.end());
-    c.targets.assign(golden::kTargets.begin(), golden::kTargets.end());
-    c.inputs = c.outputs = 2;
+    Context c = ContextOf(expected);
     ASSERT_TRUE(c.Fit());
     // The tail's inputs count from the samples' mean, which leaving one out would move; only a
     // damped linear tail can tell, and there the golden value keeps the mean too.
