@@ -112,7 +112,7 @@ void Retarget(const RetargetOptions& options) {
       IsMarkerFile(options.face.input)
           ? OpenMarkers(options.face.input, character->mapping(), options.rigid)
           : OpenVideo(options.face);
-  PoseWriter writer(options.out, character->rig());
+  const auto writer = OpenPoseWriter(options.out, character->rig());
 
   // Frames wait until the neutral is known, and are written from the first one on.
   std::deque<Moment> waiting;
@@ -122,21 +122,21 @@ void Retarget(const RetargetOptions& options) {
   const auto take_neutral = [&] {
     character->Use(taker.Take());
     has_neutral = true;
-    for (const Moment& moment : waiting) character->Write(moment, writer);
+    for (const Moment& moment : waiting) character->Write(moment, *writer);
     waiting.clear();
   };
   while (const auto moment = performance->Next()) {
     ++frames;
     faces += moment->face ? 1 : 0;
     if (has_neutral) {
-      character->Write(*moment, writer);
+      character->Write(*moment, *writer);
       continue;
     }
     waiting.push_back(*moment);
     if (taker.Add(*moment)) take_neutral();
   }
   if (!has_neutral) take_neutral();
-  writer.Commit();
+  writer->Commit();
   std::fprintf(stderr, "facewire retarget: %zu frames, a face in %zu\n", frames, faces);
 }
 
@@ -157,7 +157,8 @@ void AddRetarget(CLI::App& facewire) {
       "--neutral", options->neutral,
       "A:B, the face at rest is the median of frames A to B-1; else of the first two seconds");
   command
-      ->add_option("--out", options->out, "The file to write; .csv for CSV, JSON lines otherwise")
+      ->add_option("--out", options->out,
+                   "The file to write: .glb for a glTF animation, .csv for CSV, else JSON lines")
       ->required();
   command
       ->add_option(
