@@ -1,5 +1,6 @@
 #include "tools/facewire/pose_writer.h"
 
+#include "app/error.h"
 #include "tools/facewire/json.h"
 #include "tools/facewire/output_file.h"
 #include "tools/gltf/animation.h"
@@ -149,6 +150,9 @@ class GltfWriter final : public PoseWriter {
 std::unique_ptr<PoseWriter> OpenPoseWriter(const std::string& path, const Rig& rig) {
   if (path.ends_with(".csv")) return std::make_unique<CsvWriter>(path, rig);
   if (path.ends_with(".glb")) return std::make_unique<GltfWriter>(path, rig);
+  if (path.ends_with(".gltf"))
+    throw app::BadInput("cannot write " + path +
+                        ": glTF comes as one binary file, its name ends in .glb");
   return std::make_unique<JsonWriter>(path, rig);
 }
 

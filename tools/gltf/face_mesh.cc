@@ -35,7 +35,7 @@ float ColumnX(std::size_t column) {
 // Half the width of the face at a height.
 float HalfWidth(float y) {
   const float part = std::min(0.999F, std::abs(y + 0.3F) / 10.4F);
-  return 7.3F * std::pow(1 - std::pow(part, 2.6F), 1 / 2.6F);
+  return 7.3F * std::pow(1 - std::pow(part, 2.3F), 1 / 2.3F);
 }
 
 float Depth(float x, float y) {
@@ -67,6 +67,9 @@ FacePoint SkinPoint(std::size_t row, std::size_t column, Side side) {
   const bool above = y > kLidLine || (y == kLidLine && side != Side::kLower);
   point.lid_cm = opening * away * (above ? kUpperLidOpen : -kLowerLidOpen);
   point.rest_cm.y += point.lid_cm;
+  // Lips are full in the middle and thin at the corners.
+  const float corner = Bump(std::abs(x) - kMouthHalfWidth, y - kLipLine, 0.9F, 1.0F);
+  point.rest_cm.y += (kLipLine - y) * std::min(1.0F, 0.9F * corner);
   point.below_mouth = y < kLipLine ? 1.0F : 0.0F;
   if (y == kLipLine) point.below_mouth = side == Side::kBoth ? 0.5F : side == Side::kLower;
   return point;
