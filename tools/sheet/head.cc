@@ -1,0 +1,22 @@
+#include "tools/sheet/head.h"
+
+#include <algorithm>
+
+namespace facewire::tools {
+
+void DrawHead(const std::string& title, std::span<const Figure> figures, Canvas& canvas) {
+  canvas.Text("facewire", {kMargin, 54}, 26, palette::kInk, Align::kLeft, true);
+  canvas.Text(title, {kMargin + Canvas::TextWidth("facewire", 26, true) + 22, 54}, 13,
+              palette::kMuted);
+  const std::size_t count = std::min(figures.size(), kMaxFigures);
+  const double width =
+      (kSheetWidthPx - 2 * kMargin) / static_cast<double>(std::max<std::size_t>(count, 1));
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = kMargin + width * static_cast<double>(i);
+    canvas.Box({x, 82, width - 10, 70}, 8, palette::kCard);
+    canvas.Text(figures[i].value, {x + 14, 116}, 17, palette::kInk, Align::kLeft, true);
+    canvas.Text(figures[i].label, {x + 14, 139}, kSmall, palette::kMuted);
+  }
+}
+
+}  // namespace facewire::tools
