@@ -1,5 +1,7 @@
 #include "tools/facewire/pose_writer.h"
 
+#include <filesystem>
+
 #include "app/error.h"
 #include "tools/facewire/json.h"
 #include "tools/facewire/output_file.h"
@@ -126,7 +128,8 @@ class JsonWriter final : public PoseWriter {
 // A glTF file begins with what it holds: it can only be written at the end.
 class GltfWriter final : public PoseWriter {
  public:
-  GltfWriter(const std::string& path, const Rig& rig) : out_(path), animation_(rig) {}
+  GltfWriter(const std::string& path, const Rig& rig)
+      : out_(path), name_(std::filesystem::path(path).stem().string()), animation_(rig) {}
 
   void Write(std::uint64_t /*frame*/, std::int64_t t_us, const HeadMotion& head,
              const RigPose& pose) override {
@@ -136,12 +139,13 @@ class GltfWriter final : public PoseWriter {
   void WriteLost(std::uint64_t /*frame*/, std::int64_t t_us) override { animation_.AddLost(t_us); }
 
   void Commit() override {
-    out_.Write(animation_.Encode());
+    out_.Write(animation_.Encode(name_));
     out_.Commit();
   }
 
  private:
   OutputFile out_;
+  std::string name_;  // of the take: programs list animations by name
   GltfAnimation animation_;
 };
 

@@ -119,6 +119,7 @@ void Retarget(const RetargetOptions& options) {
   bool has_neutral = false;
   std::size_t frames = 0;
   std::size_t faces = 0;
+  std::int64_t last_us = 0;
   const auto take_neutral = [&] {
     character->Use(taker.Take());
     has_neutral = true;
@@ -128,6 +129,7 @@ void Retarget(const RetargetOptions& options) {
   while (const auto moment = performance->Next()) {
     ++frames;
     faces += moment->face ? 1 : 0;
+    last_us = moment->t_us;
     if (has_neutral) {
       character->Write(*moment, *writer);
       continue;
@@ -137,7 +139,11 @@ void Retarget(const RetargetOptions& options) {
   }
   if (!has_neutral) take_neutral();
   writer->Commit();
-  std::fprintf(stderr, "facewire retarget: %zu frames, a face in %zu\n", frames, faces);
+  // Animators set their scene to this before they import.
+  const double rate_hz =
+      last_us > 0 ? 1e6 * static_cast<double>(frames - 1) / static_cast<double>(last_us) : 0;
+  std::fprintf(stderr, "facewire retarget: %zu frames, %.5g a second, a face in %zu\n", frames,
+               rate_hz, faces);
 }
 
 }  // namespace

@@ -69,9 +69,7 @@ std::array<float, 3> Read(std::span<const float> values, const int* places) {
 class Track {
  public:
   Track(std::span<const float> times_s, BufferWriter& buffer)
-      : buffer_(buffer), times_(buffer.Add(times_s, TINYGLTF_TYPE_SCALAR, true)) {
-    animation_.name = "performance";
-  }
+      : buffer_(buffer), times_(buffer.Add(times_s, TINYGLTF_TYPE_SCALAR, true)) {}
 
   void Add(int node, const char* path, std::span<const float> values, int type) {
     tinygltf::AnimationSampler sampler;
@@ -123,7 +121,7 @@ std::span<const float> GltfAnimation::Values(std::size_t frame) const {
   return std::span(values_).subspan(frame * width, width);
 }
 
-std::string GltfAnimation::Encode() const {
+std::string GltfAnimation::Encode(const std::string& name) const {
   tinygltf::Model model;
   BufferWriter buffer(model);
   const ModelNodes nodes = AddCharacter(rig_, buffer, model);
@@ -164,6 +162,7 @@ std::string GltfAnimation::Encode() const {
       track.Add(nodes.face, "weights", weights, TINYGLTF_TYPE_SCALAR);
     }
     model.animations.push_back(track.Take());
+    model.animations.back().name = name;
   }
 
   std::ostringstream out;

@@ -26,9 +26,9 @@ class GltfAnimation {
   void AddLost(std::int64_t t_us);
 
   std::size_t frames() const { return times_s_.size(); }
-  // A whole .glb file. Without frames it shows the character at rest and has no animation. Throws
-  // Failure.
-  std::string Encode() const;
+  // A whole .glb file, its animation under that name. Without frames it shows the character at rest
+  // and has no animation. Throws Failure.
+  std::string Encode(const std::string& name) const;
 
  private:
   std::span<const float> Values(std::size_t frame) const;

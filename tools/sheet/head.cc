@@ -1,8 +1,16 @@
 #include "tools/sheet/head.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 
 namespace facewire::tools {
+
+std::string Number(const char* format, double value) {
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
 
 void DrawHead(const std::string& title, std::span<const Figure> figures, Canvas& canvas) {
   canvas.Text("facewire", {kMargin, 54}, 26, palette::kInk, Align::kLeft, true);

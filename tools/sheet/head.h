@@ -14,6 +14,9 @@ inline constexpr double kMargin = 28;
 inline constexpr double kHeadHeight = 170;
 inline constexpr double kSmall = 8.5;  // height of a capital in running text
 
+// A number as snprintf writes it: ("%.1f s", 2.5).
+std::string Number(const char* format, double value);
+
 // A figure for the head of a sheet: {"24.0", "frames a second"}. At most kMaxFigures are drawn.
 struct Figure {
   std::string value;

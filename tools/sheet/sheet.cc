@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "tools/sheet/canvas.h"
 #include "tools/sheet/character.h"
@@ -28,12 +27,6 @@ constexpr std::size_t kBarRows = 12;
 constexpr double kBarColumns[] = {kBarsX, kBarsX + 394};
 constexpr double kLabelWidth = 156;
 constexpr double kTrackWidth = 128;
-
-std::string Number(const char* format, double value) {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
 
 std::string ValueText(const Channel& channel, float value) {
   if (IsPosition(channel.kind)) return Number("%+.2f cm", static_cast<double>(value));

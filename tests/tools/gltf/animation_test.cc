@@ -103,7 +103,7 @@ void ExpectSame(const aiMatrix3x3& a, const aiMatrix3x3& b) {
 
 TEST(GltfAnimation, HasANodeForEveryBoneAtItsRestInMetres) {
   const Rig rig = MakeRig();
-  const Read read(GltfAnimation(rig).Encode());
+  const Read read(GltfAnimation(rig).Encode("take"));
   const aiMatrix4x4& jaw = read.node("jaw").mTransformation;
   EXPECT_NEAR(jaw.b4, -0.09, 1e-6);
   EXPECT_NEAR(jaw.c4, 0.04, 1e-6);
@@ -114,7 +114,7 @@ TEST(GltfAnimation, HasANodeForEveryBoneAtItsRestInMetres) {
 
 TEST(GltfAnimation, ABoneThatCarriesTheHeadDoesNotTurnTwice) {
   const Rig rig = MakeRig();
-  const Read read(GltfAnimation(rig).Encode());
+  const Read read(GltfAnimation(rig).Encode("take"));
   EXPECT_STREQ(read.node("neck").mParent->mName.C_Str(), "mini");
 }
 
@@ -123,7 +123,7 @@ TEST(GltfAnimation, KeepsThePerformancesOwnTimes) {
   GltfAnimation animation(rig);
   for (const std::int64_t t_us : std::array<std::int64_t, 4>{0, 10000, 50000, 3600000000})
     animation.Add(t_us, Head{}, Pose(rig, {}));
-  const Read read(animation.Encode());
+  const Read read(animation.Encode("take"));
   ASSERT_EQ(read.moves("jaw")->mNumRotationKeys, 4U);
   EXPECT_NEAR(Read::Seconds(read.moves("jaw")->mRotationKeys[1].mTime), 0.01, 1e-6);
   EXPECT_NEAR(Read::Seconds(read.moves("jaw")->mRotationKeys[2].mTime), 0.05, 1e-6);
@@ -143,7 +143,7 @@ TEST(GltfAnimation, TurnsABoneAsTheRigSays) {
   GltfAnimation animation(rig);
   animation.Add(0, Head{}, Pose(rig, {{"jaw.pitch", 30}, {"jaw.yaw", -50}, {"jaw.roll", 70}}));
   animation.Add(1000, Head{}, Pose(rig, {{"jaw.pitch", -20}, {"jaw.z", 0.5F}}));
-  const Read read(animation.Encode());
+  const Read read(animation.Encode("take"));
   const aiNodeAnim& jaw = *read.moves("jaw");
   ExpectSame(jaw.mRotationKeys[0].mValue.GetMatrix(), Rotation(30, -50, 70));
   ExpectSame(jaw.mRotationKeys[1].mValue.GetMatrix(), Rotation(-20, 0, 0));
@@ -155,7 +155,7 @@ TEST(GltfAnimation, MovesTheHeadAboveTheBones) {
   const Rig rig = MakeRig();
   GltfAnimation animation(rig);
   animation.Add(0, Head{10, 20, -30, 1, 2, 3}, Pose(rig, {}));
-  const Read read(animation.Encode());
+  const Read read(animation.Encode("take"));
   const aiNodeAnim& head = *read.moves("head");
   ExpectSame(head.mRotationKeys[0].mValue.GetMatrix(), Rotation(10, 20, -30));
   EXPECT_NEAR(head.mPositionKeys[0].mValue.x, 0.01, 1e-6);
@@ -168,7 +168,7 @@ TEST(GltfAnimation, NeighbouringRotationsNeverPointApart) {
   for (int i = 0; i < 40; ++i)
     animation.Add(i * 10000, Head{0, static_cast<float>(i * 20 % 360 - 180), 0, 0, 0, 0},
                   Pose(rig, {}));
-  const Read read(animation.Encode());
+  const Read read(animation.Encode("take"));
   const aiNodeAnim& head = *read.moves("head");
   for (unsigned i = 1; i < head.mNumRotationKeys; ++i) {
     const aiQuaternion& a = head.mRotationKeys[i - 1].mValue;
@@ -181,7 +181,7 @@ TEST(GltfAnimation, ParametersAreMorphTargetsUnderTheirNames) {
   const Rig rig = MakeRig();
   GltfAnimation animation(rig);
   animation.Add(0, Head{}, Pose(rig, {{"jawOpen", 0.75F}, {"jaw_deg", 20}}));
-  const std::string glb = animation.Encode();
+  const std::string glb = animation.Encode("take");
   const Read read(glb);
   const aiMesh& face = *read.scene().mMeshes[read.node("face").mMeshes[0]];
   ASSERT_EQ(face.mNumAnimMeshes, 2U);
@@ -200,7 +200,7 @@ TEST(GltfAnimation, AFrameWithoutAFaceHoldsThePoseBeforeIt) {
   animation.AddLost(0);
   animation.Add(10000, Head{0, 5, 0, 0, 0, 0}, Pose(rig, {{"jawOpen", 1}}));
   animation.AddLost(20000);
-  const Read read(animation.Encode());
+  const Read read(animation.Encode("take"));
   ASSERT_EQ(read.morphs().mNumKeys, 3U);
   EXPECT_NEAR(read.morphs().mKeys[0].mWeights[0], 0.25, 1e-6) << "the rig's neutral";
   EXPECT_NEAR(read.morphs().mKeys[2].mWeights[0], 1, 1e-6);
@@ -209,7 +209,7 @@ TEST(GltfAnimation, AFrameWithoutAFaceHoldsThePoseBeforeIt) {
 
 TEST(GltfAnimation, AnEmptyPerformanceIsACharacterAtRest) {
   const Rig rig = MakeRig();
-  const Read read(GltfAnimation(rig).Encode());
+  const Read read(GltfAnimation(rig).Encode("take"));
   EXPECT_EQ(read.scene().mNumAnimations, 0U);
   EXPECT_NE(read.scene().mRootNode->FindNode("face"), nullptr);
 }
@@ -227,12 +227,12 @@ TEST(GltfAnimation, ARigMayHaveOnlyBonesOrOnlyParametersOrNothing) {
   for (const Rig* rig : {&bones, &shapes, &nothing}) {
     GltfAnimation animation(*rig);
     animation.Add(0, Head{}, rig->NeutralPose());
-    const std::string glb = animation.Encode();
+    const std::string glb = animation.Encode("take");
     EXPECT_EQ(glb.substr(0, 4), "glTF");
     std::uint32_t length = 0;
     std::memcpy(&length, glb.data() + 8, sizeof(length));
     EXPECT_EQ(length, glb.size());
-    EXPECT_THAT(glb, testing::HasSubstr("\"performance\""));
+    EXPECT_THAT(glb, testing::HasSubstr("\"take\""));
   }
 }
 
@@ -243,7 +243,7 @@ TEST(GltfAnimation, ALongTakeOfAFullRigStaysSmall) {
     AddChannel(rig, "p" + std::to_string(i), ChannelKind::kParameter, -1, 0, 1);
   GltfAnimation animation(rig);
   for (int i = 0; i < 3000; ++i) animation.Add(i * 10000, Head{}, rig.NeutralPose());
-  EXPECT_LT(animation.Encode().size(), 4U << 20U);
+  EXPECT_LT(animation.Encode("take").size(), 4U << 20U);
 }
 
 }  // namespace
