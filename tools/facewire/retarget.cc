@@ -112,32 +112,38 @@ void Retarget(const RetargetOptions& options) {
       IsMarkerFile(options.face.input)
           ? OpenMarkers(options.face.input, character->mapping(), options.rigid)
           : OpenVideo(options.face);
-  PoseWriter writer(options.out, character->rig());
+  const auto writer = OpenPoseWriter(options.out, character->rig());
 
   // Frames wait until the neutral is known, and are written from the first one on.
   std::deque<Moment> waiting;
   bool has_neutral = false;
   std::size_t frames = 0;
   std::size_t faces = 0;
+  std::int64_t last_us = 0;
   const auto take_neutral = [&] {
     character->Use(taker.Take());
     has_neutral = true;
-    for (const Moment& moment : waiting) character->Write(moment, writer);
+    for (const Moment& moment : waiting) character->Write(moment, *writer);
     waiting.clear();
   };
   while (const auto moment = performance->Next()) {
     ++frames;
     faces += moment->face ? 1 : 0;
+    last_us = moment->t_us;
     if (has_neutral) {
-      character->Write(*moment, writer);
+      character->Write(*moment, *writer);
       continue;
     }
     waiting.push_back(*moment);
     if (taker.Add(*moment)) take_neutral();
   }
   if (!has_neutral) take_neutral();
-  writer.Commit();
-  std::fprintf(stderr, "facewire retarget: %zu frames, a face in %zu\n", frames, faces);
+  writer->Commit();
+  // Animators set their scene to this before they import.
+  const double rate_hz =
+      last_us > 0 ? 1e6 * static_cast<double>(frames - 1) / static_cast<double>(last_us) : 0;
+  std::fprintf(stderr, "facewire retarget: %zu frames, %.5g a second, a face in %zu\n", frames,
+               rate_hz, faces);
 }
 
 }  // namespace
@@ -157,7 +163,8 @@ void AddRetarget(CLI::App& facewire) {
       "--neutral", options->neutral,
       "A:B, the face at rest is the median of frames A to B-1; else of the first two seconds");
   command
-      ->add_option("--out", options->out, "The file to write; .csv for CSV, JSON lines otherwise")
+      ->add_option("--out", options->out,
+                   "The file to write: .glb for a glTF animation, .csv for CSV, else JSON lines")
       ->required();
   command
       ->add_option(

@@ -1,7 +1,11 @@
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <assimp/Importer.hpp>
+#include <sstream>
 #include <string>
 
 #include "tests/tools/facewire/run.h"
@@ -65,6 +69,70 @@ TEST(FacewireRetarget, DrivesTheDefaultCharacterFromAVideo) {
               StartsWith("{\"frame\":0,\"t_us\":0,\"state\":\"tracking\",\"head\":{\"pitch\":"));
   EXPECT_THAT(lines, HasSubstr("\"jaw\":{\"pos\":["));
   EXPECT_THAT(lines, HasSubstr("\"jawOpen\":"));
+}
+
+// A profile of the markers above; what the retarget of those markers to `out` came to.
+Outcome RetargetMarkers(const Scratch& scratch, const std::string& out) {
+  const std::string markers = scratch.Write("m.csv", kMarkers);
+  const std::string profile = scratch.Path("p.profile");
+  const Outcome trained = RunFacewire({"train", "--markers", markers, "--targets",
+                                       scratch.Write("t.csv", kTargets), "--out", profile});
+  EXPECT_EQ(trained.code, 0) << trained.err;
+  return RunFacewire({"retarget", markers, "--rig", scratch.Write("rig.toml", kRig), "--profile",
+                      profile, "--neutral", "0:1", "--out", scratch.Path(out)});
+}
+
+TEST(FacewireRetarget, WritesAGltfAnimationWithTheValuesOfTheJsonLines) {
+  const Scratch scratch;
+  ASSERT_EQ(RetargetMarkers(scratch, "out.jsonl").code, 0);
+  ASSERT_EQ(RetargetMarkers(scratch, "out.glb").code, 0);
+  Assimp::Importer importer;
+  const aiScene* scene =
+      importer.ReadFile(scratch.Path("out.glb"), aiProcess_ValidateDataStructure);
+  ASSERT_NE(scene, nullptr) << importer.GetErrorString();
+  const aiMeshMorphAnim& weights = *scene->mAnimations[0]->mMorphMeshChannels[0];
+  ASSERT_EQ(weights.mNumKeys, 3U);
+  std::istringstream lines(scratch.Read("out.jsonl"));
+  std::string line;
+  for (unsigned frame = 0; std::getline(lines, line); ++frame) {
+    const auto number_after = [&](const std::string& key) {
+      return std::stod(line.substr(line.find(key) + key.size()));
+    };
+    EXPECT_NEAR(weights.mKeys[frame].mTime, number_after("\"t_us\":") / 1000, 1e-3);
+    EXPECT_NEAR(weights.mKeys[frame].mWeights[0], number_after("\"jawOpen\":"), 1e-5);
+  }
+}
+
+TEST(FacewireRetarget, KnowsItsFormatsByTheirEndingsInAnyCase) {
+  const Scratch scratch;
+  ASSERT_EQ(RetargetMarkers(scratch, "out.GLB").code, 0);
+  EXPECT_THAT(scratch.Read("out.GLB"), StartsWith("glTF"));
+}
+
+TEST(FacewireRetarget, SaysHowManyFramesASecondThereAre) {
+  const Scratch scratch;
+  EXPECT_THAT(RetargetMarkers(scratch, "out.jsonl").err,
+              HasSubstr("3 frames, 60 a second, a face in 3"));
+}
+
+TEST(FacewireRetarget, SaysWhichKindOfGltfItWrites) {
+  const Scratch scratch;
+  const Outcome outcome = RetargetMarkers(scratch, "out.gltf");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("its name ends in .glb"));
+}
+
+TEST(FacewireRetarget, LeavesNoHalfGltfBehindWhenTheNeutralCannotBeTaken) {
+  const Scratch scratch;
+  ASSERT_EQ(RetargetMarkers(scratch, "out.glb").code, 0);
+  const std::string before = scratch.Read("out.glb");
+  const std::size_t files = scratch.Files();
+  const Outcome outcome = RunFacewire(
+      {"retarget", scratch.Path("m.csv"), "--rig", scratch.Path("rig.toml"), "--profile",
+       scratch.Path("p.profile"), "--neutral", "7:9", "--out", scratch.Path("out.glb")});
+  EXPECT_EQ(outcome.code, 2) << outcome.err;
+  EXPECT_EQ(scratch.Read("out.glb"), before);
+  EXPECT_EQ(scratch.Files(), files);
 }
 
 }  // namespace
