@@ -174,20 +174,22 @@ RigPose Retargeter::Update(const FacePose& face) noexcept {
 void Retargeter::ReadExpressions(const FacePose& face) noexcept {
   if (expressions_ == nullptr) return;
   const Solution& solution = solutions_[current_];
-  const bool mapped = has_neutral_ && expressions_->average_user();
+  const bool mapped = expressions_->average_user();
   const auto indices = expressions_->point_indices();
   const auto average = expressions_->neutral_cm();
   std::array<Point3, kMaxMarkers> points{};
   for (std::size_t i = 0; i < indices.size(); ++i) {
     const auto index = static_cast<std::size_t>(indices[i]);
-    const bool seen = index < face.count && (!mapped || index < solution.neutral.count);
+    const bool seen = index < face.count && (!has_neutral_ || index < solution.neutral.count);
     if (!seen) {
       points[i] = average[i];
+    } else if (!has_neutral_) {
+      points[i] = face.points_cm[index];
     } else if (mapped) {
       points[i] = average[i] +
                   (solution.to_average.Map(face.points_cm[index]) - solution.markers_at_neutral[i]);
     } else {
-      points[i] = face.points_cm[index];
+      points[i] = average[i] + (face.points_cm[index] - solution.neutral.points_cm[index]);
     }
   }
   expressions_->Evaluate(std::span(points).first(indices.size()),

@@ -46,6 +46,8 @@ class Retargeter {
   // kInvalidArgument: they are not finite, or there are none. After an error the old neutral stays.
   Result<> SetNeutral(const Neutral& neutral) noexcept;
 
+  // The expression mapping sees the motion from the performer's neutral, added to its own neutral
+  // sample; for an average user that motion is mapped to the average's proportions first.
   // Before the first SetNeutral the performer counts as the average face, and bones stay at rest.
   // Points that the face or the neutral does not have (the light tracker sees no irises) count as
   // unmoved. What is not finite leaves its channels at neutral. Channels are not limited here.
