@@ -61,8 +61,9 @@ class LimitsProperty : public testing::TestWithParam<unsigned> {
         Channel channel = RandomChannel();
         channel.kind = kind;
         channel.bone = b;
-        if (kind == ChannelKind::kPitch)
+        if (kind == ChannelKind::kPitch) {
           EXPECT_TRUE(channel.drives.try_push({Named("head.pitch"), Between(-1e6F, 1e6F)}));
+        }
         EXPECT_TRUE(rig.channels.try_push(channel));
       }
     }
@@ -125,7 +126,9 @@ TEST_P(LimitsProperty, NoBoneAndNoChannelEverLeavesThem) {
     face->camera_R_head = kIdentity3;
     for (Point3& p : face->points_cm) p = RandomPoint();
     const Neutral neutral{face->count, face->points_cm, face->camera_R_head, {}};
-    if (!Chance(10)) ASSERT_TRUE(retargeter->SetNeutral(neutral));
+    if (!Chance(10)) {
+      ASSERT_TRUE(retargeter->SetNeutral(neutral));
+    }
     for (int frame = 0; frame < 100; ++frame) {
       Move(*face);
       if (Chance(20)) retargeter->SetBlend(Chance(2) ? Wild() : Between(0, 1));
