@@ -7,6 +7,7 @@
 #include <sys/un.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <optional>
@@ -275,7 +276,7 @@ TEST(Facewired, ChecksWithoutTouchingADevice) {
   EXPECT_THAT(run.err(), HasSubstr("/dev/no-such-port"));
 }
 
-// A profile of three poses of the given markers, which gives "jawOpen" and "mutter".
+// A profile of three poses of the given markers, which gives "jawOpen", and "mutter", always 1.
 void WriteProfile(const Scratch& scratch, const std::vector<std::string>& markers) {
   TrainingSet training;
   retarget::RegionConfig region;
@@ -293,7 +294,7 @@ void WriteProfile(const Scratch& scratch, const std::vector<std::string>& marker
   for (const float open : {0.F, 0.5F, 1.F}) {
     for (std::size_t i = 0; i < markers.size(); ++i)
       training.samples.insert(training.samples.end(), {static_cast<float>(i), -open, 4});
-    training.targets.insert(training.targets.end(), {open, open});
+    training.targets.insert(training.targets.end(), {open, 1});
   }
   SaveProfile(scratch / "me.profile", training);
 }
@@ -312,13 +313,25 @@ TEST(Facewired, CountsAPersonalProfileInCheckAndMemory) {
   EXPECT_THAT(check.out(), HasSubstr("\npersonal profile "));
 }
 
-TEST(Facewired, DrivesARigByASignalThatOnlyThePersonalProfileGives) {
-  Facewired f(WithPersonalProfile());
-  f.scratch.Write("facewire.toml", Replaced(WithPersonalProfile(), kRig, "rig.toml"));
+TEST(Facewired, BlendsASignalThatOnlyThePersonalProfileGivesAndReloadsTheBlend) {
+  const auto configuration = [](const char* blend) {
+    return Replaced(Replaced(WithPersonalProfile(), kRig, "rig.toml"), "blend = 0.5", blend);
+  };
+  Facewired f(configuration("blend = 0.5"));
   f.scratch.Write("rig.toml", "name = \"r\"\n[[parameter]]\nname = \"mutter\"\n");
   WriteProfile(f.scratch, {"lm13", "lm14", "lm152", "lm61"});
-  Process check = f.Start({"--fake", "--check"});
-  EXPECT_EQ(check.Wait(), 0) << check.err();
+  Process process = f.Start({"--fake"});
+  Listener host(f.scratch / "line");
+  const auto mutters = [&](float value) {
+    return host.state() == ServiceState::kTracking && host.rig.Complete() &&
+           std::abs(wire::ValuesOf(host.poses.back(), host.rig.rig()).values[0] - value) < 1e-3F;
+  };
+  ASSERT_TRUE(host.Until([&] { return mutters(0.5F); })) << process.err();
+  f.scratch.Write("facewire.toml", configuration("blend = 0.75"));
+  process.Signal(SIGHUP);
+  ASSERT_TRUE(host.Until([&] { return mutters(0.75F); })) << process.err();
+  process.Signal(SIGTERM);
+  EXPECT_EQ(process.Wait(), 0);
 }
 
 struct Row {
