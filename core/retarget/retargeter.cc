@@ -235,19 +235,20 @@ void Retargeter::ReadExpressions(const FacePose& face) noexcept {
 void Retargeter::Evaluate(const Source& source, const Adaptation& adaptation, const FacePose& face,
                           std::span<float> signals) const noexcept {
   const Neutral& neutral = solutions_[current_].neutral;
-  const bool mapped = has_neutral_ && source.adapted;
   const auto profile = source.mapping->neutral_cm();
   std::array<Point3, kMaxMarkers> points{};
   for (std::size_t i = 0; i < source.points.size(); ++i) {
     const auto point = static_cast<std::size_t>(source.points[i]);
-    const bool seen = point < face.count && (!mapped || point < neutral.count);
+    const bool seen = point < face.count && (!has_neutral_ || point < neutral.count);
     if (!seen) {
       points[i] = profile[i];
-    } else if (mapped) {
+    } else if (!has_neutral_) {
+      points[i] = face.points_cm[point];
+    } else if (source.adapted) {
       points[i] = profile[i] +
                   (adaptation.to_profile.Map(face.points_cm[point]) - adaptation.at_neutral[i]);
     } else {
-      points[i] = face.points_cm[point];
+      points[i] = profile[i] + (face.points_cm[point] - neutral.points_cm[point]);
     }
   }
   source.mapping->Evaluate(std::span(points).first(source.points.size()),

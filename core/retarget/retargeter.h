@@ -63,6 +63,9 @@ class Retargeter {
   // kInvalidArgument: they are not finite, or there are none. After an error the old neutral stays.
   Result<> SetNeutral(const Neutral& neutral) noexcept;
 
+  // An expression mapping sees the motion from the performer's neutral, added to its own neutral
+  // sample; for an average user and the personal profile that motion is mapped to the profile's
+  // proportions first.
   // Before the first SetNeutral the performer counts as the profiles' faces, and bones stay at
   // rest. Points that the face or the neutral does not have (the light tracker sees no irises)
   // count as unmoved. What is not finite leaves its channels at neutral. Values are

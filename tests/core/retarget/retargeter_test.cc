@@ -116,6 +116,24 @@ TEST(Retargeter, APerformerWithAnotherFaceIsTakenToTheAverage) {
   EXPECT_NEAR(c.retargeter.Update(*Face(0.5F, 0, scale)).values[0], 0.5F, 0.1F);
 }
 
+TEST(Retargeter, AProfileOfOnesOwnReadsTheMotionFromTodaysNeutral) {
+  TrainingExample example;
+  example.average_user = false;
+  Context c;
+  ASSERT_TRUE(c.expressions.Configure(example));
+  ASSERT_TRUE(c.Configure());
+  const auto shifted = [](float blink, float open) {
+    auto face = Face(blink, open);
+    face->points_cm[386].y += 0.3F;  // markers that were glued on elsewhere today
+    face->points_cm[14].y -= 0.4F;
+    return face;
+  };
+  ASSERT_TRUE(c.retargeter.SetNeutral(NeutralOf(*shifted(0, 0))));
+  EXPECT_NEAR(c.retargeter.Update(*shifted(0, 0)).values[0], 0, 0.02F);
+  EXPECT_NEAR(c.retargeter.Update(*shifted(1, 0.5F)).values[0], 1, 0.05F);
+  EXPECT_NEAR(c.retargeter.Update(*shifted(0, 0.5F)).values[2], 2 + 10, 0.5F);
+}
+
 TEST(Retargeter, BeforeTheFirstNeutralThePerformerCountsAsTheAverage) {
   Context c;
   ASSERT_TRUE(c.Configure());
