@@ -114,7 +114,7 @@ Result<> Retargeter::SolveBones(Solution& solution) noexcept {
     target[n] = rig_->bones[link.bone].rest_cm;
     landmarks[n++] = link.landmark;
   }
-  solution.bones_at_neutral.clear();
+  solution.bone_anchors.clear();
   if (n == 0) return {};
   if (auto solved = solution.to_bones.Solve(std::span(source).first(n), std::span(target).first(n),
                                             std::span(landmarks).first(n), workspace_);
@@ -122,15 +122,15 @@ Result<> Retargeter::SolveBones(Solution& solution) noexcept {
     return solved;
   for (const BoneLink& link : links_) {
     const bool seen = static_cast<std::size_t>(link.landmark) < solution.neutral.count;
-    const Point3 at =
-        seen ? solution.to_bones.Map(solution.neutral.points_cm[link.landmark]) : Point3{};
-    if (!solution.bones_at_neutral.try_push(at)) return Errc::kFull;
+    const auto anchor = seen ? solution.to_bones.AnchorAt(solution.neutral.points_cm[link.landmark])
+                             : GeometryMapping::Anchor{};
+    if (!solution.bone_anchors.try_push(anchor)) return Errc::kFull;
   }
   return {};
 }
 
 Result<> Retargeter::SolveAverage(Solution& solution) noexcept {
-  solution.markers_at_neutral.clear();
+  solution.marker_anchors.clear();
   if (expressions_ == nullptr || !expressions_->average_user()) return {};
   const auto indices = expressions_->point_indices();
   const auto average = expressions_->neutral_cm();
@@ -152,8 +152,9 @@ Result<> Retargeter::SolveAverage(Solution& solution) noexcept {
     return solved;
   for (const std::int16_t index : indices) {
     const bool seen = static_cast<std::size_t>(index) < solution.neutral.count;
-    const Point3 at = seen ? solution.to_average.Map(solution.neutral.points_cm[index]) : Point3{};
-    if (!solution.markers_at_neutral.try_push(at)) return Errc::kFull;
+    const auto anchor = seen ? solution.to_average.AnchorAt(solution.neutral.points_cm[index])
+                             : GeometryMapping::Anchor{};
+    if (!solution.marker_anchors.try_push(anchor)) return Errc::kFull;
   }
   return {};
 }
@@ -185,7 +186,7 @@ void Retargeter::ReadExpressions(const FacePose& face) noexcept {
       points[i] = average[i];
     } else if (mapped) {
       points[i] = average[i] +
-                  (solution.to_average.Map(face.points_cm[index]) - solution.markers_at_neutral[i]);
+                  solution.to_average.Motion(solution.marker_anchors[i], face.points_cm[index]);
     } else {
       points[i] = face.points_cm[index];
     }
@@ -212,13 +213,13 @@ void Retargeter::ReadHead(const FacePose& face) noexcept {
 void Retargeter::MoveBones(const FacePose& face) noexcept {
   offsets_cm_.fill({});
   const Solution& solution = solutions_[current_];
-  if (!has_neutral_ || solution.bones_at_neutral.empty()) return;
+  if (!has_neutral_ || solution.bone_anchors.empty()) return;
   const std::size_t seen = std::min(face.count, solution.neutral.count);
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const BoneLink& link = links_[i];
     if (static_cast<std::size_t>(link.landmark) >= seen) continue;
     const Point3 offset =
-        solution.to_bones.Map(face.points_cm[link.landmark]) - solution.bones_at_neutral[i];
+        solution.to_bones.Motion(solution.bone_anchors[i], face.points_cm[link.landmark]);
     if (IsFinite(offset)) offsets_cm_[link.bone] = offset;
   }
 }

@@ -64,8 +64,8 @@ class Retargeter {
   struct Solution {
     Neutral neutral;
     GeometryMapping to_bones, to_average;
-    InlineVector<Point3, kMaxBones> bones_at_neutral;      // to_bones of the neutral
-    InlineVector<Point3, kMaxMarkers> markers_at_neutral;  // to_average of the neutral
+    InlineVector<GeometryMapping::Anchor, kMaxBones> bone_anchors;      // of to_bones
+    InlineVector<GeometryMapping::Anchor, kMaxMarkers> marker_anchors;  // of to_average
   };
   struct BoneLink {
     std::int16_t bone = 0;
