@@ -160,7 +160,7 @@ Result<> Retargeter::SolveBones(Solution& solution) noexcept {
     target[n] = rig_->bones[link.bone].rest_cm;
     landmarks[n++] = link.landmark;
   }
-  solution.bones_at_neutral.clear();
+  solution.bone_anchors.clear();
   if (n == 0) return {};
   if (auto solved = solution.to_bones.Solve(std::span(source).first(n), std::span(target).first(n),
                                             std::span(landmarks).first(n), workspace_);
@@ -168,16 +168,16 @@ Result<> Retargeter::SolveBones(Solution& solution) noexcept {
     return solved;
   for (const BoneLink& link : links_) {
     const bool seen = static_cast<std::size_t>(link.landmark) < solution.neutral.count;
-    const Point3 at =
-        seen ? solution.to_bones.Map(solution.neutral.points_cm[link.landmark]) : Point3{};
-    if (!solution.bones_at_neutral.try_push(at)) return Errc::kFull;
+    const auto anchor = seen ? solution.to_bones.AnchorAt(solution.neutral.points_cm[link.landmark])
+                             : GeometryMapping::Anchor{};
+    if (!solution.bone_anchors.try_push(anchor)) return Errc::kFull;
   }
   return {};
 }
 
 Result<> Retargeter::SolveAdaptation(const Source& from, const Neutral& neutral,
                                      Adaptation& adaptation) noexcept {
-  adaptation.at_neutral.clear();
+  adaptation.anchors.clear();
   if (from.mapping == nullptr || !from.adapted) return {};
   const auto profile = from.mapping->neutral_cm();
   std::array<Point3, kMaxMarkers> source{};
@@ -199,8 +199,9 @@ Result<> Retargeter::SolveAdaptation(const Source& from, const Neutral& neutral,
     return solved;
   for (const std::int16_t point : from.points) {
     const bool seen = static_cast<std::size_t>(point) < neutral.count;
-    const Point3 at = seen ? adaptation.to_profile.Map(neutral.points_cm[point]) : Point3{};
-    if (!adaptation.at_neutral.try_push(at)) return Errc::kFull;
+    const auto anchor =
+        seen ? adaptation.to_profile.AnchorAt(neutral.points_cm[point]) : GeometryMapping::Anchor{};
+    if (!adaptation.anchors.try_push(anchor)) return Errc::kFull;
   }
   return {};
 }
@@ -245,8 +246,8 @@ void Retargeter::Evaluate(const Source& source, const Adaptation& adaptation, co
     } else if (!has_neutral_) {
       points[i] = face.points_cm[point];
     } else if (source.adapted) {
-      points[i] = profile[i] +
-                  (adaptation.to_profile.Map(face.points_cm[point]) - adaptation.at_neutral[i]);
+      points[i] =
+          profile[i] + adaptation.to_profile.Motion(adaptation.anchors[i], face.points_cm[point]);
     } else {
       points[i] = profile[i] + (face.points_cm[point] - neutral.points_cm[point]);
     }
@@ -285,13 +286,13 @@ void Retargeter::ReadHead(const FacePose& face) noexcept {
 void Retargeter::MoveBones(const FacePose& face) noexcept {
   offsets_cm_.fill({});
   const Solution& solution = solutions_[current_];
-  if (!has_neutral_ || solution.bones_at_neutral.empty()) return;
+  if (!has_neutral_ || solution.bone_anchors.empty()) return;
   const std::size_t seen = std::min(face.count, solution.neutral.count);
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const BoneLink& link = links_[i];
     if (static_cast<std::size_t>(link.landmark) >= seen) continue;
     const Point3 offset =
-        solution.to_bones.Map(face.points_cm[link.landmark]) - solution.bones_at_neutral[i];
+        solution.to_bones.Motion(solution.bone_anchors[i], face.points_cm[link.landmark]);
     if (IsFinite(offset)) offsets_cm_[link.bone] = offset;
   }
 }

@@ -90,14 +90,14 @@ class Retargeter {
   };
   struct Adaptation {
     GeometryMapping to_profile;
-    InlineVector<Point3, kMaxMarkers> at_neutral;  // to_profile of the neutral
+    InlineVector<GeometryMapping::Anchor, kMaxMarkers> anchors;  // of to_profile
   };
   // Everything that follows from a neutral. There are two, so that a neutral that cannot be solved
   // leaves the running one alone.
   struct Solution {
     Neutral neutral;
     GeometryMapping to_bones;
-    InlineVector<Point3, kMaxBones> bones_at_neutral;  // to_bones of the neutral
+    InlineVector<GeometryMapping::Anchor, kMaxBones> bone_anchors;  // of to_bones
     Adaptation shared, personal;
   };
   struct BoneLink {
