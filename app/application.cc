@@ -183,7 +183,8 @@ ServiceConfig Application::ServiceConfigOf(const Config& config) const {
 }
 
 void Application::Open() {
-  OpenControl();  // first, so that a second service hears of the first one and not of a busy camera
+  // First, so that a second service hears of the first one and not of a busy camera.
+  const std::string no_control = OpenControl();
   if (camera_address_.empty()) {
     // Nothing to play: a grey picture, in which nobody is.
     blank_view_.width_px = config_.camera.width_px;
@@ -222,25 +223,26 @@ void Application::Open() {
           .log_answer = LogAnswer},
       *characters_[running_]);
   TakeStoredNeutral();
+  if (!no_control.empty()) Log(no_control.c_str());
 }
 
-// A puppet that nobody on the board can command is still a puppet, so only another service at the
+// Why there is no control socket although there should be one; "" when all is well. A puppet that
+// nobody on the board can command is still a puppet, so only another service at the
 // same place is a reason not to start: two would fight over one camera and one puppet. Mock
 // hardware leaves the device's own socket alone.
-void Application::OpenControl() {
+std::string Application::OpenControl() {
   const std::filesystem::path& socket = config_.control.socket;
-  if (socket.empty() || (options_.fake && socket == ControlConfig{}.socket)) return;
+  if (socket.empty() || (options_.fake && socket == ControlConfig{}.socket)) return "";
   const Result<> opened = control_.Open(socket.string());
-  if (opened) return;
+  if (opened) return "";
   if (opened.error() == Errc::kBusy) {
     throw BadInput(socket.string() +
                    ": another facewired serves this control socket; stop that one, or give this "
                    "one another [control] socket");
   }
   const bool folder = opened.error() == Errc::kNotFound;
-  Log(("running without the control socket " + socket.string() + ": " +
-       (folder ? "its folder does not exist" : Name(opened.error())))
-          .c_str());
+  return "running without the control socket " + socket.string() + ": " +
+         (folder ? "its folder does not exist" : Name(opened.error()));
 }
 
 // A neutral that cannot be used must not keep a board from starting: the performer is there to give

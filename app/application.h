@@ -73,7 +73,7 @@ class Application {
   bool PlaysFast() const;
   std::filesystem::path NeutralFile() const { return config_.neutral.folder / "performer.neutral"; }
   void TakeStoredNeutral();
-  void OpenControl();
+  std::string OpenControl();
   bool KeepNeutral(const retarget::Neutral& neutral) const;
   void Reload();
   void Supervise();
