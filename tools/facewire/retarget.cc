@@ -23,6 +23,8 @@ struct RetargetOptions {
   FaceOptions face;  // with the input, also when that is a marker file
   std::string rig;
   std::string profile;
+  std::string personal;
+  float blend_percent = 100;
   std::string neutral;
   std::string out;
   std::vector<std::string> rigid;
@@ -43,7 +45,10 @@ class Character {
  public:
   Character(const RetargetOptions& options, Rig rig)
       : rig_(rig), profile_(app::LoadProfile(ProfilePath(options))) {
-    if (const auto unknown = retarget::FirstUnknownSignal(rig_, &profile_->mapping())) {
+    if (!options.personal.empty()) personal_ = app::LoadProfile(options.personal);
+    const retarget::ExpressionMapping* personal =
+        personal_ == nullptr ? nullptr : &personal_->mapping();
+    if (const auto unknown = retarget::FirstUnknownSignal(rig_, &profile_->mapping(), personal)) {
       throw app::BadInput(options.rig + ": the signal " + std::string(unknown->view()) +
                           " is driven by, but the profile does not give it");
     }
@@ -53,7 +58,15 @@ class Character {
     }
     memory_.resize(retarget::Retargeter::RequiredBytes());
     arena_.emplace(std::span(memory_));
-    Check(retargeter_.Configure(rig_, &profile_->mapping(), *arena_), options.rig);
+    const Result<> configured =
+        retargeter_.Configure(rig_, &profile_->mapping(), *arena_, personal);
+    if (!configured && configured.error() == Errc::kUnsupported) {
+      throw app::BadInput(options.personal +
+                          ": reads markers that the profile does not have; train it with some of "
+                          "the profile's markers");
+    }
+    Check(configured, options.rig);
+    retargeter_.SetBlend(options.blend_percent / 100);
     Check(limiter_.Configure(rig_), options.rig);
   }
   Character(const Character&) = delete;
@@ -94,6 +107,7 @@ class Character {
 
   Rig rig_;
   std::unique_ptr<app::Profile> profile_;
+  std::unique_ptr<app::Profile> personal_;  // or none
   std::vector<std::byte> memory_;
   std::optional<Arena> arena_;
   retarget::Retargeter retargeter_;
@@ -153,6 +167,14 @@ void AddRetarget(CLI::App& facewire) {
   command->add_option("--rig", options->rig, "The character")->required();
   command->add_option("--profile", options->profile,
                       "The trained mapping; for videos, the shipped one unless named");
+  CLI::Option* personal = command->add_option(
+      "--personal", options->personal,
+      "A profile of the performer's own poses, blended over the other by the names of signals");
+  command
+      ->add_option("--blend", options->blend_percent,
+                   "How much it counts, in percent: 0 (not at all) to 100, the default")
+      ->check(CLI::Range(0.0, 100.0))
+      ->needs(personal);
   command->add_option(
       "--neutral", options->neutral,
       "A:B, the face at rest is the median of frames A to B-1; else of the first two seconds");

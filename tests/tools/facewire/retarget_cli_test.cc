@@ -52,6 +52,51 @@ TEST(FacewireRetarget, NamesTheMarkersThatAProfileMisses) {
   EXPECT_THAT(outcome.err, HasSubstr("lipL, lipR"));
 }
 
+// The performer's own profile wants half of jawOpen.
+TEST(FacewireRetarget, BlendsAPersonalProfileIn) {
+  const Scratch scratch;
+  const std::string markers = scratch.Write("m.csv", kMarkers);
+  const std::string rig = scratch.Write("rig.toml", kRig);
+  const auto train = [&](const std::string& from, const char* targets, const char* name) {
+    const Outcome trained =
+        RunFacewire({"train", "--markers", from, "--targets", scratch.Write("t.csv", targets),
+                     "--out", scratch.Path(name)});
+    EXPECT_EQ(trained.code, 0) << trained.err;
+    return scratch.Path(name);
+  };
+  const std::string profile = train(markers, kTargets, "p.profile");
+  const std::string own = train(markers, "jawOpen\n0\n0.25\n0.5\n", "own.profile");
+  const auto retarget = [&](std::vector<std::string> more) {
+    std::vector<std::string> all = {
+        "retarget", markers,     "--rig", rig,     "--profile",
+        profile,    "--neutral", "0:1",   "--out", scratch.Path("out.csv")};
+    all.insert(all.end(), more.begin(), more.end());
+    return RunFacewire(all);
+  };
+  const auto last_value = [&](std::vector<std::string> more) {
+    const Outcome outcome = retarget(std::move(more));
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const std::string out = scratch.Read("out.csv");
+    return std::stod(out.substr(out.rfind(',') + 1));
+  };
+  EXPECT_NEAR(last_value({"--personal", own}), 0.5, 0.02) << "alone";
+  EXPECT_NEAR(last_value({"--personal", own, "--blend", "50"}), 0.75, 0.02);
+  EXPECT_NEAR(last_value({"--personal", own, "--blend", "0"}), 1, 0.02);
+
+  const Outcome beyond = retarget({"--personal", own, "--blend", "101"});
+  EXPECT_EQ(beyond.code, 2);
+  EXPECT_THAT(beyond.err, HasSubstr("--blend"));
+  const Outcome alone = retarget({"--blend", "50"});
+  EXPECT_EQ(alone.code, 2);
+  EXPECT_THAT(alone.err, HasSubstr("--personal"));
+  const std::string other =
+      scratch.Write("other.csv", "cheek_x,cheek_y,cheek_z\n0,-8,4\n0,-9,4\n0,-10,4\n");
+  const Outcome foreign = retarget({"--personal", train(other, kTargets, "other.profile")});
+  EXPECT_EQ(foreign.code, 2);
+  EXPECT_THAT(foreign.err,
+              HasSubstr("other.profile: reads markers that the profile does not have"));
+}
+
 TEST(FacewireRetarget, DrivesTheDefaultCharacterFromAVideo) {
   const Scratch scratch;
   const Outcome outcome = RunFacewire({"retarget", ShortClip(scratch, 6), "--rig",
