@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "app/answer_text.h"
 #include "app/devices.h"
 #include "app/error.h"
 #include "app/networks.h"
@@ -86,6 +87,13 @@ void Log(const char* text) noexcept {
   if (size <= 0) return;
   const auto shown = std::min(static_cast<std::size_t>(size), line.size() - 1);
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), shown);
+}
+
+void LogAnswer(const wire::Acknowledgement& answer) noexcept {
+  std::array<char, 256> text;
+  (void)std::snprintf(text.data(), text.size(), "button: %s: %s", Name(answer.code),
+                      AnswerText(answer).data());
+  Log(text.data());
 }
 
 // Calls `part`; what is wrong with it joins what was wrong before.
@@ -199,6 +207,8 @@ ServiceConfig Application::ServiceConfigOf(const Config& config) const {
 }
 
 void Application::Open() {
+  // First, so that a second service hears of the first one and not of a busy camera.
+  const std::string no_control = OpenControl();
   if (camera_address_.empty()) {
     // Nothing to play: a grey picture, in which nobody is.
     blank_view_.width_px = config_.camera.width_px;
@@ -224,16 +234,39 @@ void Application::Open() {
   if (!line_->Open()) throw Failure(line_address_ + ": was lost while starting");
   service_.emplace(
       ServiceConfigOf(config_),
-      ServiceParts{.camera = *camera_,
-                   .line = *line_,
-                   .clock = clock_,
-                   .follower = follower_,
-                   .capture = capture_,
-                   .stop = nullptr,
-                   .keep_neutral =
-                       [this](const retarget::Neutral& neutral) { return KeepNeutral(neutral); }},
+      ServiceParts{
+          .camera = *camera_,
+          .line = *line_,
+          .clock = clock_,
+          .follower = follower_,
+          .capture = capture_,
+          .control = &control_,
+          .stop = nullptr,
+          .calibrate = nullptr,
+          .keep_neutral = [this](const retarget::Neutral& neutral) { return KeepNeutral(neutral); },
+          .log_answer = LogAnswer},
       *characters_[running_]);
   TakeStoredNeutral();
+  if (!no_control.empty()) Log(no_control.c_str());
+}
+
+// Why there is no control socket although there should be one; "" when all is well. A puppet that
+// nobody on the board can command is still a puppet, so only another service at the
+// same place is a reason not to start: two would fight over one camera and one puppet. Mock
+// hardware leaves the device's own socket alone.
+std::string Application::OpenControl() {
+  const std::filesystem::path& socket = config_.control.socket;
+  if (socket.empty() || (options_.fake && socket == ControlConfig{}.socket)) return "";
+  const Result<> opened = control_.Open(socket.string());
+  if (opened) return "";
+  if (opened.error() == Errc::kBusy) {
+    throw BadInput(socket.string() +
+                   ": another facewired serves this control socket; stop that one, or give this "
+                   "one another [control] socket");
+  }
+  const bool folder = opened.error() == Errc::kNotFound;
+  return "running without the control socket " + socket.string() + ": " +
+         (folder ? "its folder does not exist" : Name(opened.error()));
 }
 
 // A neutral that cannot be used must not keep a board from starting: the performer is there to give
@@ -341,6 +374,8 @@ std::string Application::Summary() const {
           "\n";
   text += "personal " + PersonalSummary() + "\n";
   text += "host     " + (line_address_.empty() ? "none" : line_address_) + "\n";
+  text += "control  " +
+          (config_.control.socket.empty() ? "none" : config_.control.socket.string()) + "\n";
   return text;
 }
 

@@ -13,6 +13,7 @@
 
 #include "app/character.h"
 #include "app/config.h"
+#include "app/control.h"
 #include "app/follower.h"
 #include "app/host_line.h"
 #include "app/profile_file.h"
@@ -72,6 +73,7 @@ class Application {
   bool PlaysFast() const;
   std::filesystem::path NeutralFile() const { return config_.neutral.folder / "performer.neutral"; }
   void TakeStoredNeutral();
+  std::string OpenControl();
   bool KeepNeutral(const retarget::Neutral& neutral) const;
   std::string PersonalSummary() const;
   void Reload();
@@ -101,6 +103,7 @@ class Application {
   std::string line_address_;  // empty: no line
   std::unique_ptr<hal::SerialPort> port_;
   std::optional<HostLine> line_;
+  Control control_;
   std::optional<Service> service_;
 
   Supervisor supervisor_;

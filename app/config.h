@@ -62,6 +62,11 @@ struct HostConfig {
       5;  // the rig's description again, for hosts that join later; 0 = on request
 };
 
+struct ControlConfig {
+  // A local socket on which the board's own programs give commands; empty: none.
+  std::filesystem::path socket = "/run/facewire/control";
+};
+
 struct Config {
   CameraConfig camera;
   TrackerFilesConfig tracker;
@@ -70,6 +75,7 @@ struct Config {
   CharacterConfig character;
   NeutralConfig neutral;
   HostConfig host;
+  ControlConfig control;
   state::StateConfig states;
 };
 

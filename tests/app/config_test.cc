@@ -67,6 +67,14 @@ TEST(LoadConfig, SaysWhatIsWrongWhereAndWhatWouldBeRight) {
   for (const Row& row : table) EXPECT_EQ(Complaint(row.text), row.complaint) << row.text;
 }
 
+TEST(LoadConfig, RefusesAPathThatIsTooLongForASocket) {
+  const std::string longest = "/" + std::string(106, 's');
+  EXPECT_EQ(Complaint("[control]\nsocket = \"" + longest + "\"\n"), "");
+  EXPECT_EQ(Complaint("[control]\nsocket = \"" + longest + "s\"\n"),
+            "F:2:10: control.socket: the path " + longest +
+                "s is too long for a socket; at most 107 characters");
+}
+
 TEST(LoadConfig, ReportsEveryProblemAtOnceInTheOrderOfTheFile) {
   const std::string what =
       Complaint("[states]\nhold_ms = true\neaze_ms = 3\n[camera]\nfps = 1000\n[filter]\nx = 1\n");
@@ -148,6 +156,7 @@ TEST(ExampleConfig, ListsEveryKeyWithItsDefault) {
   EXPECT_EQ(read.host.write_budget_ms, defaults.host.write_budget_ms);
   EXPECT_EQ(read.host.min_rate_hz, defaults.host.min_rate_hz);
   EXPECT_EQ(read.host.describe_every_s, defaults.host.describe_every_s);
+  EXPECT_EQ(read.control.socket, defaults.control.socket);
   EXPECT_EQ(read.states.start_ramp, defaults.states.start_ramp);
   EXPECT_EQ(read.states.acquire, defaults.states.acquire);
   EXPECT_EQ(read.states.hold, defaults.states.hold);
@@ -164,7 +173,7 @@ TEST(ExampleConfig, OmitsNoKeyThatTheReaderKnows) {
       ParseTomlFile(std::filesystem::path(FACEWIRE_SOURCE_DIR) / "app/share/facewire.toml");
   for (const char* path :
        {"", "camera", "camera.replay", "tracker", "filter", "filter.eyes", "filter.mouth",
-        "filter.rest", "pose", "character", "neutral", "host", "states"}) {
+        "filter.rest", "pose", "character", "neutral", "host", "control", "states"}) {
     const std::string header = *path == 0 ? "" : "[" + std::string(path) + "]\n";
     const std::string what = Complaint(header + "qqqqqqqqqqqqqqqqqqqq = 1\n");
     const std::size_t known = what.find("known: ");
