@@ -25,6 +25,8 @@ retarget::RegionConfig WholeFace(const app::TrainingSet& training, const rbf::Rb
 // names that would be right.
 rbf::Kernel ParseKernel(std::string_view name, const std::string& where);
 rbf::Tail ParseTail(std::string_view name, const std::string& where);
+// "auto", "mean" or a positive number, as RbfConfig::epsilon.
+float ParseEpsilon(std::string_view text, const std::string& where);
 
 }  // namespace facewire::tools
 

@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -31,19 +30,13 @@ rbf::RbfConfig ToConfig(const TrainOptions& options) {
   rbf::RbfConfig config;
   config.kernel = ParseKernel(options.kernel, "--kernel: ");
   config.tail = ParseTail(options.tail, "--tail: ");
+  config.epsilon = ParseEpsilon(options.epsilon, "--epsilon: ");
   config.smoothing = options.smoothing;
   config.tail_smoothing = options.tail_smoothing;
   for (const auto& [name, value] : {std::pair{"--smoothing", options.smoothing},
                                     std::pair{"--tail-smoothing", options.tail_smoothing}})
     if (!std::isfinite(value) || value < 0)
       throw app::BadInput(std::string(name) + ": has to be a number from 0 up");
-  if (options.epsilon == "auto") return config;
-  const char* end = options.epsilon.data() + options.epsilon.size();
-  const auto [parsed, error] = std::from_chars(options.epsilon.data(), end, config.epsilon);
-  if (error != std::errc{} || parsed != end || !std::isfinite(config.epsilon) ||
-      config.epsilon <= 0)
-    throw app::BadInput("--epsilon: \"" + options.epsilon +
-                        "\" is neither auto nor a positive number");
   return config;
 }
 
@@ -124,9 +117,10 @@ void AddTrain(CLI::App& facewire) {
       ->required();
   train->add_option("--out", options->out, "The profile to write")->required();
   train->add_option("--kernel", options->kernel,
-                    "multiquadric, inverse-multiquadric, gaussian, linear or cubic");
+                    "multiquadric, inverse-multiquadric, gaussian, linear, cubic or thin-plate");
   train->add_option("--epsilon", options->epsilon,
-                    "Shape of the kernel per cm; auto: least leave-one-out error");
+                    "Shape of the kernel per cm; auto: least leave-one-out error; mean: 1 / mean "
+                    "distance of the rows");
   train->add_option("--smoothing", options->smoothing, "0: through every sample");
   train->add_option("--tail", options->tail, "none, constant or linear");
   train->add_option("--tail-smoothing", options->tail_smoothing, "The same for a linear tail");
