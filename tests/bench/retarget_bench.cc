@@ -7,7 +7,6 @@
 
 #include "app/profile_file.h"
 #include "app/rig_file.h"
-#include "core/rbf/rbf.h"
 #include "core/retarget/retargeter.h"
 
 namespace facewire {
@@ -91,31 +90,6 @@ void LoadDefaultProfile(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(app::LoadProfile(kProfile));
 }
 BENCHMARK(LoadDefaultProfile)->Unit(benchmark::kMillisecond);
-
-// 600 samples of 300 inputs, 51 outputs: a whole face without regions or axes.
-void RbfEvaluateLarge(benchmark::State& state) {
-  const rbf::RbfShape shape{600, 300, 51, rbf::Tail::kConstant};
-  std::vector<std::byte> block(rbf::Rbf::RequiredBytes(shape));
-  std::vector<std::byte> workspace(rbf::Rbf::WorkspaceBytes(shape));
-  std::vector<float> samples(shape.samples * shape.inputs);
-  std::vector<float> targets(shape.samples * shape.outputs);
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    samples[i] = std::sin(static_cast<float>(i * i % 10007));
-  for (std::size_t i = 0; i < targets.size(); ++i)
-    targets[i] = std::cos(static_cast<float>(i * i % 7919));
-  Arena arena(block);
-  rbf::Rbf rbf;
-  rbf::FitReport report;
-  const rbf::RbfConfig config{.tail = shape.tail, .epsilon = 0.1F, .smoothing = 0.1F};
-  if (!rbf.Reserve(shape, arena) || !rbf.Fit(config, shape, samples, targets, workspace, report))
-    state.SkipWithError("fit");
-  std::vector<float> y(shape.outputs);
-  for (auto _ : state) {
-    rbf.Evaluate(std::span<const float>(samples).first(shape.inputs), y);
-    benchmark::DoNotOptimize(y.data());
-  }
-}
-BENCHMARK(RbfEvaluateLarge)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace facewire
