@@ -1,5 +1,7 @@
 #include "tools/facewire/pose_writer.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "app/error.h"
@@ -152,11 +154,14 @@ class GltfWriter final : public PoseWriter {
 }  // namespace
 
 std::unique_ptr<PoseWriter> OpenPoseWriter(const std::string& path, const Rig& rig) {
-  if (path.ends_with(".csv")) return std::make_unique<CsvWriter>(path, rig);
-  if (path.ends_with(".glb")) return std::make_unique<GltfWriter>(path, rig);
-  if (path.ends_with(".gltf"))
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (ending == ".csv") return std::make_unique<CsvWriter>(path, rig);
+  if (ending == ".glb") return std::make_unique<GltfWriter>(path, rig);
+  if (ending == ".gltf") {
     throw app::BadInput("cannot write " + path +
                         ": glTF comes as one binary file, its name ends in .glb");
+  }
   return std::make_unique<JsonWriter>(path, rig);
 }
 

@@ -71,8 +71,11 @@ void DrawBar(const TrainingView& view, std::size_t row, std::size_t signal, cv::
   const double target = view.target(row, signal);
   const double predicted = view.prediction(row, signal);
   const TargetRange& range = view.range(signal);
+  // A prediction may leave the range of the targets: it is seen to do so, within the card.
+  constexpr double kBeyond = 0.1;
   const auto x_of = [&](double value) {
-    return at.x + kName + kTrack * std::clamp((value - range.low) / range.size(), 0.0, 1.0);
+    return at.x + kName +
+           kTrack * std::clamp((value - range.low) / range.size(), -kBeyond, 1 + kBeyond);
   };
   const auto box = [&](double from, double to, double thick, const cv::Scalar& colour) {
     canvas.Box({std::min(from, to), at.y - thick / 2, std::abs(to - from), thick}, 1, colour);

@@ -103,6 +103,18 @@ TEST(FacewireRetarget, WritesAGltfAnimationWithTheValuesOfTheJsonLines) {
   }
 }
 
+TEST(FacewireRetarget, KnowsItsFormatsByTheirEndingsInAnyCase) {
+  const Scratch scratch;
+  ASSERT_EQ(RetargetMarkers(scratch, "out.GLB").code, 0);
+  EXPECT_THAT(scratch.Read("out.GLB"), StartsWith("glTF"));
+}
+
+TEST(FacewireRetarget, SaysHowManyFramesASecondThereAre) {
+  const Scratch scratch;
+  EXPECT_THAT(RetargetMarkers(scratch, "out.jsonl").err,
+              HasSubstr("3 frames, 60 a second, a face in 3"));
+}
+
 TEST(FacewireRetarget, SaysWhichKindOfGltfItWrites) {
   const Scratch scratch;
   const Outcome outcome = RetargetMarkers(scratch, "out.gltf");
