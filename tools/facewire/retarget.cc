@@ -156,7 +156,7 @@ void Retarget(const RetargetOptions& options) {
   // Animators set their scene to this before they import.
   const double rate_hz =
       last_us > 0 ? 1e6 * static_cast<double>(frames - 1) / static_cast<double>(last_us) : 0;
-  std::fprintf(stderr, "facewire retarget: %zu frames, %.5g a second, a face in %zu\n", frames,
+  std::fprintf(stderr, "facewire retarget: %zu frames, %.4g a second, a face in %zu\n", frames,
                rate_hz, faces);
 }
 
