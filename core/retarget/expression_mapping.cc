@@ -1,28 +1,16 @@
 #include "core/retarget/expression_mapping.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
+#include "core/base/marker_name.h"
 #include "core/rbf/principal_axes.h"
 
 namespace facewire::retarget {
 namespace {
 
 constexpr std::size_t kMaxInputs = kMaxExpressionInputs + kMaxRegionGaps;
-
-// The landmark of "lm0".."lm477".
-std::optional<std::int16_t> LandmarkOf(std::string_view name) noexcept {
-  if (!name.starts_with("lm")) return std::nullopt;
-  std::int16_t index = -1;
-  const char* end = name.data() + name.size();
-  const auto [parsed, error] = std::from_chars(name.data() + 2, end, index);
-  if (error != std::errc{} || parsed != end || index < 0 ||
-      index >= static_cast<std::int16_t>(kMaxLandmarks))
-    return std::nullopt;
-  return index;
-}
 
 std::size_t Dimensions(const RegionConfig& region) noexcept {
   return region.axes > 0 ? region.axes : region.inputs();
