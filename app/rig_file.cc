@@ -5,7 +5,7 @@
 
 #include "app/toml_reader.h"
 #include "core/base/capacity.h"
-#include "core/base/marker_name.h"
+#include "core/marker_name.h"
 
 namespace facewire::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/base/marker_name.h"
+#include "core/marker_name.h"
 #include "core/rbf/principal_axes.h"
 
 namespace facewire::retarget {

@@ -1,5 +1,5 @@
-#ifndef FACEWIRE_CORE_BASE_MARKER_NAME_H_
-#define FACEWIRE_CORE_BASE_MARKER_NAME_H_
+#ifndef FACEWIRE_CORE_MARKER_NAME_H_
+#define FACEWIRE_CORE_MARKER_NAME_H_
 
 #include <charconv>
 #include <cstdint>
@@ -25,4 +25,4 @@ inline std::optional<std::int16_t> LandmarkOf(std::string_view marker) noexcept 
 
 }  // namespace facewire
 
-#endif  // FACEWIRE_CORE_BASE_MARKER_NAME_H_
+#endif  // FACEWIRE_CORE_MARKER_NAME_H_
