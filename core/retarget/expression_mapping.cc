@@ -2,23 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
+
+#include "core/marker_name.h"
 
 namespace facewire::retarget {
 namespace {
 
-// The landmark of "lm0".."lm477".
-std::optional<std::int16_t> LandmarkOf(std::string_view name) noexcept {
-  if (!name.starts_with("lm")) return std::nullopt;
-  std::int16_t index = -1;
-  const char* end = name.data() + name.size();
-  const auto [parsed, error] = std::from_chars(name.data() + 2, end, index);
-  if (error != std::errc{} || parsed != end || index < 0 ||
-      index >= static_cast<std::int16_t>(kMaxLandmarks))
-    return std::nullopt;
-  return index;
 }
 
 bool IsValid(const RegionConfig& region, std::size_t markers, std::size_t signals) noexcept {

@@ -158,7 +158,7 @@ Result<> Retargeter::SolveBones(Solution& solution) noexcept {
     if (static_cast<std::size_t>(link.landmark) >= solution.neutral.count) continue;
     source[n] = solution.neutral.points_cm[link.landmark];
     target[n] = rig_->bones[link.bone].rest_cm;
-    landmarks[n++] = link.landmark;
+    landmarks[n++] = rig_->bones[link.bone].marker.empty() ? link.landmark : std::int16_t{-1};
   }
   solution.bone_anchors.clear();
   if (n == 0) return {};

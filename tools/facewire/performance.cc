@@ -63,23 +63,17 @@ std::vector<std::size_t> Find(const markers::Take& take, const std::vector<std::
   return found;
 }
 
-std::vector<std::string> NamesOf(const retarget::ExpressionMapping& mapping) {
-  std::vector<std::string> names;
-  for (const ShortName& name : mapping.markers()) names.emplace_back(name.view());
-  return names;
-}
-
 bool Seen(Point3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 class Markers final : public Performance {
  public:
-  Markers(const std::string& path, const retarget::ExpressionMapping& mapping,
+  Markers(const std::string& path, const MarkerLayout& layout,
           const std::vector<std::string>& rigid)
       : path_(path),
         take_(markers::ReadTake(path)),
-        read_(Find(take_, NamesOf(mapping), path, "the profile")),
+        read_(Find(take_, layout.names, path, layout.needed_by)),
         rigid_(Find(take_, rigid, path, "--rigid")),
-        points_(mapping.point_indices().begin(), mapping.point_indices().end()) {}
+        points_(layout.points) {}
 
   std::optional<Moment> Next() override {
     if (next_ == take_.frames.size()) return std::nullopt;
@@ -130,9 +124,9 @@ class Markers final : public Performance {
 
   std::string path_;
   markers::Take take_;
-  std::vector<std::size_t> read_;  // marker of the take for each of the mapping's
+  std::vector<std::size_t> read_;  // marker of the take for each of the layout's
   std::vector<std::size_t> rigid_;
-  std::vector<std::int16_t> points_;  // of FacePose, for each of the mapping's
+  std::vector<std::int16_t> points_;  // of FacePose, for each of the layout's
   std::vector<Point3> reference_;
   std::size_t next_ = 0;
 };
@@ -143,10 +137,9 @@ std::unique_ptr<Performance> OpenVideo(const FaceOptions& options) {
   return std::make_unique<Video>(options);
 }
 
-std::unique_ptr<Performance> OpenMarkers(const std::string& path,
-                                         const retarget::ExpressionMapping& mapping,
+std::unique_ptr<Performance> OpenMarkers(const std::string& path, const MarkerLayout& layout,
                                          const std::vector<std::string>& rigid) {
-  return std::make_unique<Markers>(path, mapping, rigid);
+  return std::make_unique<Markers>(path, layout, rigid);
 }
 
 bool IsMarkerFile(const std::string& path) {
