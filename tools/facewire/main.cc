@@ -23,6 +23,7 @@ void AddCommands(CLI::App& facewire) {
   AddTrack(facewire);
   AddRetarget(facewire);
   AddNeutral(facewire);
+  AddRecord(facewire);
   AddTrain(facewire);
   AddMonitor(facewire);
   AddSheet(facewire);
