@@ -13,6 +13,7 @@ void AddTrack(CLI::App& facewire);
 void AddRetarget(CLI::App& facewire);
 void AddNeutral(CLI::App& facewire);
 void AddRecord(CLI::App& facewire);
+void AddPick(CLI::App& facewire);
 void AddTrain(CLI::App& facewire);
 void AddMonitor(CLI::App& facewire);
 void AddSheet(CLI::App& facewire);

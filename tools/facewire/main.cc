@@ -24,6 +24,7 @@ void AddCommands(CLI::App& facewire) {
   AddRetarget(facewire);
   AddNeutral(facewire);
   AddRecord(facewire);
+  AddPick(facewire);
   AddTrain(facewire);
   AddMonitor(facewire);
   AddSheet(facewire);

@@ -220,7 +220,8 @@ RegionConfig WholeFace(const app::TrainingSet& training, const rbf::RbfConfig& c
     throw app::BadInput("a profile holds at most " + std::to_string(kMaxMarkers) + " markers and " +
                         std::to_string(kMaxSignals) + " targets; there are " +
                         std::to_string(training.markers.size()) + " and " +
-                        std::to_string(training.signals.size()));
+                        std::to_string(training.signals.size()) +
+                        "; --regions reads some of them, and record --markers keeps some");
   return region;
 }
 

@@ -18,6 +18,7 @@ namespace {
 std::vector<std::string> Chosen(const std::vector<std::string>& names,
                                 const std::vector<std::size_t>& indices) {
   std::vector<std::string> chosen;
+  chosen.reserve(indices.size());
   for (const std::size_t i : indices) chosen.push_back(names[i]);
   return chosen;
 }

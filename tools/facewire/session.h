@@ -1,14 +1,13 @@
 #ifndef FACEWIRE_TOOLS_FACEWIRE_SESSION_H_
 #define FACEWIRE_TOOLS_FACEWIRE_SESSION_H_
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/base/geometry.h"
 #include "tools/facewire/face_reader.h"
+#include "tools/facewire/session_frame.h"
 
 namespace CLI {
 class App;
@@ -26,14 +25,6 @@ struct SessionOptions {
 // Adds INPUT under the name `input`, --rigid, --markers, --unfiltered and the options of
 // AddFaceOptions.
 void AddSessionOptions(CLI::App& command, const std::string& input, SessionOptions& options);
-
-// Points of one frame in the head frame, cm; NaN where a marker was not seen. Frames without a
-// face, or without a marker that was seen, have none.
-struct SessionFrame {
-  std::uint64_t frame = 0;
-  std::int64_t t_us = 0;  // since the recording's first frame
-  std::vector<Point3> points_cm;
-};
 
 // Named points over time with head motion removed: of markers, or of a face that was tracked.
 class Session {
