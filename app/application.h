@@ -73,6 +73,7 @@ class Application {
   std::filesystem::path NeutralFile() const { return config_.neutral.folder / "performer.neutral"; }
   void TakeStoredNeutral();
   bool KeepNeutral(const retarget::Neutral& neutral) const;
+  std::string PersonalSummary() const;
   void Reload();
   void Supervise();
   void LogStateChange();
@@ -85,7 +86,8 @@ class Application {
   std::unique_ptr<std::byte[]> block_;  // networks, characters, capture: in this order
   std::optional<Arena> arena_;
   FramePath path_;
-  std::unique_ptr<Profile> profile_;  // or none: bones only
+  std::unique_ptr<Profile> profile_;   // or none: bones only
+  std::unique_ptr<Profile> personal_;  // or none
   std::array<std::span<std::byte>, 2> character_memory_;
   std::array<std::optional<Character>, 2> characters_;  // one runs, a reload builds the other
   std::size_t running_ = 0;

@@ -126,6 +126,8 @@ Config LoadConfig(const std::filesystem::path& file) {
   TableReader character = top.Table("character");
   ReadPath(character, "rig", folder, config.character.rig);
   ReadPath(character, "profile", folder, config.character.profile);
+  ReadPath(character, "personal", folder, config.character.personal);
+  character.Number("blend", config.character.blend, {0, 1});
   character.Finish();
   TableReader neutral = top.Table("neutral");
   ReadPath(neutral, "folder", folder, config.neutral.folder);

@@ -41,6 +41,8 @@ struct TrackerFilesConfig {
 struct CharacterConfig {
   std::filesystem::path rig = "rig.toml";
   std::filesystem::path profile = "/usr/share/facewire/average.profile";  // empty: bones only
+  std::filesystem::path personal;  // a profile of the performer's own poses; empty: none
+  float blend = 1;                 // how much it counts at start, 0 to 1
 };
 
 struct NeutralConfig {

@@ -11,7 +11,7 @@ namespace {
 
 using retarget::RegionConfig;
 
-constexpr FileKind kProfile = {"FWPROFIL", 1, "profile", "make it again with facewire train"};
+constexpr FileKind kProfile = {"FWPROFIL", 2, "profile", "make it again with facewire train"};
 constexpr std::uint32_t kAverageUser = 1U << 0;
 
 std::string Quoted(const ShortName& name) { return "\"" + std::string(name.view()) + "\""; }
@@ -20,12 +20,22 @@ std::string Describe(const TrainingSet& training, Errc code,
                      const retarget::TrainingReport& report) {
   const auto row = [](std::size_t index) { return std::to_string(index + 1); };
   const rbf::FitReport& fit = report.fit;
+  const nnls::NnlsReport& nnls = report.nnls;
   const std::string region = report.region < training.regions.size()
                                  ? "in region " + Quoted(training.regions[report.region].name) + " "
                                  : "";
   if (fit.duplicate_first && fit.duplicate_second)
     return region + "rows " + row(*fit.duplicate_first) + " and " + row(*fit.duplicate_second) +
            " have the same markers; leave one out, or allow smoothing";
+  if (nnls.duplicate_first && nnls.duplicate_second)
+    return region + "rows " + row(*nnls.duplicate_first) + " and " + row(*nnls.duplicate_second) +
+           " have the same markers and other targets; leave one out, or allow smoothing";
+  if (nnls.dependent_output) {
+    const std::uint16_t signal = training.regions[report.region].outputs[*nnls.dependent_output];
+    return region + "the rows do not tell what target " + Quoted(training.signals[signal]) +
+           " moves from what those before it move; add a row that shows it alone, leave it out, "
+           "or allow smoothing";
+  }
   if (fit.dependent_sample)
     return region + "row " + row(*fit.dependent_sample) +
            " adds nothing to the rows before it; leave it out, allow smoothing, or use a larger "
@@ -48,12 +58,14 @@ void WriteIndices(ByteWriter& out, std::span<const std::uint16_t> indices) {
 
 void WriteRegion(ByteWriter& out, const RegionConfig& region) {
   out.Text(region.name.view());
+  out.U8(static_cast<std::uint8_t>(region.method));
   out.U8(static_cast<std::uint8_t>(region.rbf.kernel));
   out.U8(static_cast<std::uint8_t>(region.rbf.tail));
   out.U16(region.axes);
   out.F32(region.rbf.epsilon);
   out.F32(region.rbf.smoothing);
   out.F32(region.rbf.tail_smoothing);
+  out.F32(region.nnls.ridge);
   out.F32(region.gap_gain);
   WriteIndices(out, region.points.span());
   WriteIndices(out, region.origin.span());
@@ -128,15 +140,18 @@ class Parser {
   RegionConfig ReadRegion() {
     RegionConfig region;
     region.name = ReadName();
+    const std::uint8_t method = in_.U8();
     const std::uint8_t kernel = in_.U8();
     const std::uint8_t tail = in_.U8();
-    Expect(kernel < rbf::kKernelCount && tail < rbf::kTailCount);
+    Expect(method < retarget::kMethodCount && kernel < rbf::kKernelCount && tail < rbf::kTailCount);
+    region.method = static_cast<retarget::Method>(method);
     region.rbf.kernel = static_cast<rbf::Kernel>(kernel);
     region.rbf.tail = static_cast<rbf::Tail>(tail);
     region.axes = in_.U16();
     region.rbf.epsilon = in_.F32();
     region.rbf.smoothing = in_.F32();
     region.rbf.tail_smoothing = in_.F32();
+    region.nnls.ridge = in_.F32();
     region.gap_gain = in_.F32();
     ReadIndices(region.points);
     ReadIndices(region.origin);
@@ -159,8 +174,9 @@ Profile::Profile(const TrainingSet& training, const std::string& source,
                  std::span<float> leave_one_out) {
   const retarget::Training view = training.view();
   if (auto checked = retarget::ExpressionMapping::Check(view); !checked)
-    throw BadInput(source + ": " +
-                   Describe(training, checked.error(), {.region = SIZE_MAX, .fit = {}}));
+    throw BadInput(
+        source + ": " +
+        Describe(training, checked.error(), {.region = SIZE_MAX, .fit = {}, .nnls = {}}));
   block_.resize(retarget::ExpressionMapping::RequiredBytes(view));
   std::vector<std::byte> workspace(retarget::ExpressionMapping::WorkspaceBytes(view));
   Arena arena(block_);

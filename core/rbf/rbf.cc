@@ -192,8 +192,8 @@ Result<> Rbf::Fit(const RbfConfig& config, const RbfShape& shape, std::span<cons
       samples.size() != shape.samples * shape.inputs ||
       targets.size() != shape.samples * shape.outputs ||
       (!leave_one_out.empty() && leave_one_out.size() != targets.size()) || !AllFinite(samples) ||
-      !AllFinite(targets) || !(config.epsilon >= 0) || !(config.smoothing >= 0) ||
-      !(config.tail_smoothing >= 0))
+      !AllFinite(targets) || !(config.epsilon >= 0 || config.epsilon == kMeanDistanceEpsilon) ||
+      !(config.smoothing >= 0) || !(config.tail_smoothing >= 0))
     return Errc::kInvalidArgument;
 
   Arena arena(workspace);
@@ -224,7 +224,7 @@ Result<> Rbf::Fit(const RbfConfig& config, const RbfShape& shape, std::span<cons
     }
   }
   problem.epsilon = config.epsilon;
-  if (config.epsilon == 0) {
+  if (config.epsilon <= 0) {
     if (auto chosen = ChooseEpsilon(config, problem); !chosen) return chosen;
   }
   report.epsilon = problem.epsilon;
@@ -251,7 +251,7 @@ Result<> Rbf::ChooseEpsilon(const RbfConfig& config, Problem& problem) const noe
   for (const double squared : problem.squared) sum += std::sqrt(squared);
   const double base = sum > 0 ? pairs / sum : 1.0;
   problem.epsilon = static_cast<float>(base);
-  if (!HasShape(config.kernel)) return {};
+  if (!HasShape(config.kernel) || config.epsilon == kMeanDistanceEpsilon) return {};
 
   double best = std::numeric_limits<double>::infinity();
   double best_exponent = 0;

@@ -12,6 +12,9 @@
 
 namespace facewire::rbf {
 
+// Value of RbfConfig::epsilon that stands for 1 / mean distance between two samples.
+inline constexpr float kMeanDistanceEpsilon = -1;
+
 struct RbfConfig {
   Kernel kernel = Kernel::kMultiquadric;
   Tail tail = Tail::kNone;  // the paper's equation 1 has none

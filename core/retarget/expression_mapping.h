@@ -1,7 +1,6 @@
 #ifndef FACEWIRE_CORE_RETARGET_EXPRESSION_MAPPING_H_
 #define FACEWIRE_CORE_RETARGET_EXPRESSION_MAPPING_H_
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,54 +11,10 @@
 #include "core/base/inline_vector.h"
 #include "core/base/name.h"
 #include "core/base/result.h"
-#include "core/rbf/rbf.h"
+#include "core/retarget/region.h"
+#include "core/retarget/training.h"
 
 namespace facewire::retarget {
-
-// A part of the face with a function of its own: some markers in, some signals out. Regions keep
-// apart what does not belong together (a blink moves no mouth) and let what matters weigh more.
-struct RegionConfig {
-  struct Gap {
-    std::uint16_t upper = 0, lower = 0;  // indices of markers
-  };
-  ShortName name;
-  rbf::RbfConfig rbf;
-  // > 0: distances are taken in that many principal axes of the inputs (see rbf::PrincipalAxes).
-  std::uint16_t axes = 0;
-  float gap_gain = 1;  // multiplies the gaps below: how much more they count
-  // Indices of markers. The inputs are the coordinates of `points` minus the mean of `origin` (when
-  // there are any), then how far the upper marker of each gap is above the lower one; all in cm. A
-  // gap has a sign, unlike a distance: lips that press closer than in a neutral with parted lips
-  // must not read as open.
-  InlineVector<std::uint16_t, kMaxMarkers> points, origin;
-  InlineVector<Gap, kMaxRegionGaps> gaps;
-  InlineVector<std::uint16_t, kMaxSignals> outputs;  // indices of signals
-
-  constexpr std::size_t inputs() const noexcept { return 3 * points.size() + gaps.size(); }
-};
-
-// Example pairs, borrowed.
-struct Training {
-  std::span<const ShortName>
-      markers;  // "lm0".."lm477": landmarks; any other names: a marker file's
-  std::span<const ShortName> signals;
-  std::span<const float> samples;         // samples x 3 markers by rows: x y z, cm, head frame
-  std::span<const float> targets;         // samples x signals by rows, in the signals' own units
-  std::span<const RegionConfig> regions;  // every signal is the output of exactly one
-  std::size_t neutral_sample = 0;         // the row that is the face at rest
-  // The samples are an average face: other performers are taken there by a geometry mapping first.
-  bool average_user = false;
-
-  std::size_t sample_count() const noexcept {
-    return markers.empty() ? 0 : samples.size() / (3 * markers.size());
-  }
-};
-
-// Which region could not be fitted, and why.
-struct TrainingReport {
-  std::size_t region = 0;
-  rbf::FitReport fit;
-};
 
 // The paper's section 6: marker configuration -> every parameter of the rig, from example pairs.
 class ExpressionMapping {
@@ -88,7 +43,7 @@ class ExpressionMapping {
   // (who reads the file then fills points_cm in this order).
   std::span<const std::int16_t> point_indices() const noexcept { return point_indices_.span(); }
   bool reads_landmarks() const noexcept { return reads_landmarks_; }
-  float epsilon(std::size_t region) const noexcept { return regions_[region].rbf.epsilon(); }
+  float epsilon(std::size_t region) const noexcept { return regions_[region].epsilon(); }
 
   // `points_cm`: one per marker; `signals`: one per signal, overwritten, each within the range that
   // its training targets span (outside the trained region the function would run away; what is not
@@ -96,20 +51,10 @@ class ExpressionMapping {
   void Evaluate(std::span<const Point3> points_cm, std::span<float> signals) const noexcept;
 
  private:
-  struct Region {
-    RegionConfig config;
-    rbf::Rbf rbf;
-    std::span<float> basis;  // axes x inputs; empty: inputs are used as they are
-  };
   struct Range {
     float low = 0, high = 0, neutral = 0;
   };
   Result<> TakeNames(const Training& training) noexcept;
-  Result<> FitRegion(Region& region, const Training& training, Arena& arena,
-                     std::span<std::byte> workspace, rbf::FitReport& report,
-                     std::span<float> leave_one_out) noexcept;
-  void ReadInputs(const RegionConfig& region, std::span<const Point3> points_cm,
-                  std::span<float> inputs) const noexcept;
 
   InlineVector<ShortName, kMaxMarkers> markers_;
   InlineVector<std::int16_t, kMaxMarkers> point_indices_;

@@ -58,6 +58,7 @@ TEST(LoadConfig, SaysWhatIsWrongWhereAndWhatWouldBeRight) {
        "F:2:11: states.hold_ms: -1 is out of range; allowed: 0 to 600000 ms"},
       {"[states]\nneutral_frames = 0\n",
        "F:2:18: states.neutral_frames: 0 is out of range; allowed: 1 to 1000 frames"},
+      {"[character]\nblend = 50\n", "F:2:9: character.blend: 50 is out of range; allowed: 0 to 1"},
       {"[filter.eyes]\nbeta = false\n",
        "F:2:8: filter.eyes.beta: is true or false; expected a number"},
       {"[host]\nmin_rate_hz = 5\n",
@@ -138,6 +139,8 @@ TEST(ExampleConfig, ListsEveryKeyWithItsDefault) {
   EXPECT_EQ(read.pose.vertical_fov_deg, defaults.pose.vertical_fov_deg);
   EXPECT_EQ(read.character.rig.filename(), defaults.character.rig.filename());
   EXPECT_EQ(read.character.profile, defaults.character.profile);
+  EXPECT_EQ(read.character.personal, defaults.character.personal);
+  EXPECT_EQ(read.character.blend, defaults.character.blend);
   EXPECT_EQ(read.neutral.folder, defaults.neutral.folder);
   EXPECT_EQ(read.neutral.auto_s, defaults.neutral.auto_s);
   EXPECT_EQ(read.host.line, defaults.host.line);

@@ -7,10 +7,12 @@
 #include <sys/un.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <optional>
 
+#include "app/profile_file.h"
 #include "core/wire/decoder.h"
 #include "core/wire/encoder.h"
 #include "core/wire/pose.h"
@@ -274,6 +276,64 @@ TEST(Facewired, ChecksWithoutTouchingADevice) {
   EXPECT_THAT(run.err(), HasSubstr("/dev/no-such-port"));
 }
 
+// A profile of three poses of the given markers, which gives "jawOpen", and "mutter", always 1.
+void WriteProfile(const Scratch& scratch, const std::vector<std::string>& markers) {
+  TrainingSet training;
+  retarget::RegionConfig region;
+  region.name = *ShortName::From("face");
+  region.rbf.smoothing = 0.01F;
+  for (const std::string& marker : markers) {
+    EXPECT_TRUE(region.points.try_push(static_cast<std::uint16_t>(training.markers.size())));
+    training.markers.push_back(*ShortName::From(marker));
+  }
+  for (const char* signal : {"jawOpen", "mutter"}) {
+    EXPECT_TRUE(region.outputs.try_push(static_cast<std::uint16_t>(training.signals.size())));
+    training.signals.push_back(*ShortName::From(signal));
+  }
+  training.regions.push_back(region);
+  for (const float open : {0.F, 0.5F, 1.F}) {
+    for (std::size_t i = 0; i < markers.size(); ++i)
+      training.samples.insert(training.samples.end(), {static_cast<float>(i), -open, 4});
+    training.targets.insert(training.targets.end(), {open, 1});
+  }
+  SaveProfile(scratch / "me.profile", training);
+}
+
+std::string WithPersonalProfile() {
+  return Replaced(Configuration(), "[neutral]",
+                  "personal = \"me.profile\"\nblend = 0.5\n[neutral]");
+}
+
+TEST(Facewired, CountsAPersonalProfileInCheckAndMemory) {
+  Facewired f(WithPersonalProfile());
+  WriteProfile(f.scratch, {"lm13", "lm14", "lm152", "lm61"});
+  Process check = f.Start({"--fake", "--check", "--memory"});
+  EXPECT_EQ(check.Wait(), 0) << check.err();
+  EXPECT_THAT(check.out(), HasSubstr("me.profile: 2 signals, 1 of them shared, blend 0.50\n"));
+  EXPECT_THAT(check.out(), HasSubstr("\npersonal profile "));
+}
+
+TEST(Facewired, BlendsASignalThatOnlyThePersonalProfileGivesAndReloadsTheBlend) {
+  const auto configuration = [](const char* blend) {
+    return Replaced(Replaced(WithPersonalProfile(), kRig, "rig.toml"), "blend = 0.5", blend);
+  };
+  Facewired f(configuration("blend = 0.5"));
+  f.scratch.Write("rig.toml", "name = \"r\"\n[[parameter]]\nname = \"mutter\"\n");
+  WriteProfile(f.scratch, {"lm13", "lm14", "lm152", "lm61"});
+  Process process = f.Start({"--fake"});
+  Listener host(f.scratch / "line");
+  const auto mutters = [&](float value) {
+    return host.state() == ServiceState::kTracking && host.rig.Complete() &&
+           std::abs(wire::ValuesOf(host.poses.back(), host.rig.rig()).values[0] - value) < 1e-3F;
+  };
+  ASSERT_TRUE(host.Until([&] { return mutters(0.5F); })) << process.err();
+  f.scratch.Write("facewire.toml", configuration("blend = 0.75"));
+  process.Signal(SIGHUP);
+  ASSERT_TRUE(host.Until([&] { return mutters(0.75F); })) << process.err();
+  process.Signal(SIGTERM);
+  EXPECT_EQ(process.Wait(), 0);
+}
+
 struct Row {
   const char* name;
   std::function<void(Facewired&)> spoil;
@@ -345,6 +405,16 @@ TEST(Facewired, RefusesBadInputWithOneLineAndExitCodeTwo) {
          f.scratch.Write("facewire.toml", Configuration("", kRig, "p.profile"));
        },
        "p.profile: the profile is of version 99"},
+      {"personal profile that is not there",
+       [&](Facewired& f) { f.scratch.Write("facewire.toml", WithPersonalProfile()); },
+       "me.profile: there is no such profile"},
+      {"personal profile of a marker file's names",
+       [&](Facewired& f) {
+         WriteProfile(f.scratch, {"chin", "lip", "brow", "nose"});
+         f.scratch.Write("facewire.toml", WithPersonalProfile());
+       },
+       "me.profile: reads markers (\"chin\", ...) that a camera does not show; train it with "
+       "landmarks, lm0 to lm477"},
       {"video that is none",
        [&](Facewired& f) {
          f.scratch.Write("x.mp4", "not a video");

@@ -26,7 +26,9 @@ TrainingSet Example() {
 
 TEST(ProfileFile, IsReadAsItWasWritten) {
   const Scratch scratch;
-  const TrainingSet written = Example();
+  TrainingSet written = Example();
+  written.regions[1].method = retarget::Method::kNnls;
+  written.regions[1].nnls.ridge = 0.25F;
   SaveProfile(scratch / "a.profile", written);
   const TrainingSet read = ReadTrainingSet(scratch / "a.profile");
   EXPECT_EQ(read.markers, written.markers);
@@ -39,6 +41,9 @@ TEST(ProfileFile, IsReadAsItWasWritten) {
   EXPECT_EQ(read.regions[1].name.view(), "mouth");
   EXPECT_EQ(read.regions[1].rbf.smoothing, written.regions[1].rbf.smoothing);
   EXPECT_EQ(read.regions[1].rbf.tail, rbf::Tail::kLinear);
+  EXPECT_EQ(read.regions[0].method, retarget::Method::kRbf);
+  EXPECT_EQ(read.regions[1].method, retarget::Method::kNnls);
+  EXPECT_EQ(read.regions[1].nnls.ridge, 0.25F);
   EXPECT_EQ(read.regions[1].gaps[0].lower, 3);
   SaveProfile(scratch / "b.profile", read);
   EXPECT_EQ(Scratch::Read(scratch / "a.profile"), Scratch::Read(scratch / "b.profile"));
@@ -80,7 +85,11 @@ TEST(ProfileFile, SaysWhatIsWrongWithAFile) {
   EXPECT_THAT(message(damaged), HasSubstr("checksum is wrong"));
   std::string newer = good;
   newer[8] = 9;
-  EXPECT_THAT(message(newer), HasSubstr("of version 9, this program reads version 1"));
+  EXPECT_THAT(message(newer), HasSubstr("of version 9, this program reads version 2"));
+  std::string older = good;
+  older[8] = 1;
+  EXPECT_THAT(message(older), HasSubstr("of version 1, this program reads version 2; make it again "
+                                        "with facewire train"));
 }
 
 // A payload that lies, under a right checksum: any byte may be anything.
@@ -95,7 +104,7 @@ TEST(ProfileFile, NoPayloadCrashesTheReader) {
     bad[i] = static_cast<char>(bad[i] ^ 0xFF);
     const auto bytes = std::as_bytes(std::span<const char>(bad));
     std::string sealed;
-    for (const std::byte b : Seal({"FWPROFIL", 1, "", ""}, bytes)) sealed += static_cast<char>(b);
+    for (const std::byte b : Seal({"FWPROFIL", 2, "", ""}, bytes)) sealed += static_cast<char>(b);
     const auto path = scratch.Write("bad.profile", sealed);
     try {
       LoadProfile(path);

@@ -29,9 +29,13 @@ constexpr std::array<std::pair<std::string_view, rbf::Tail>, 3> kTails = {{
     {"constant", rbf::Tail::kConstant},
     {"linear", rbf::Tail::kLinear},
 }};
-constexpr std::array<std::string_view, 12> kKeys = {
-    "name", "targets", "points", "origin",  "gaps",      "gap_gain",
-    "axes", "kernel",  "tail",   "epsilon", "smoothing", "tail_smoothing"};
+constexpr std::array<std::pair<std::string_view, retarget::Method>, 2> kMethods = {{
+    {"rbf", retarget::Method::kRbf},
+    {"nnls", retarget::Method::kNnls},
+}};
+constexpr std::array<std::string_view, 13> kKeys = {
+    "name",   "targets", "points", "origin",  "gaps",      "gap_gain",      "axes",
+    "method", "kernel",  "tail",   "epsilon", "smoothing", "tail_smoothing"};
 
 template <class Table>
 auto Parse(const Table& table, std::string_view name, const std::string& where) {
@@ -50,32 +54,30 @@ class RegionReader {
                const app::TrainingSet& training)
       : path_(path), table_(table), training_(training) {}
 
-  RegionConfig Read(const rbf::RbfConfig& defaults) const {
+  RegionConfig Read(const RegionConfig& defaults) const {
     for (const auto& [key, node] : table_)
       if (std::ranges::find(kKeys, key.str()) == kKeys.end())
         Fail(node, "unknown key \"" + std::string(key.str()) + "\"");
-    RegionConfig region;
+    RegionConfig region = defaults;
     region.name = Name();
-    region.rbf = defaults;
+    if (const auto* node = table_.get("method"))
+      region.method = ParseMethod(Text(*node), Where(*node));
     if (const auto* node = table_.get("kernel"))
       region.rbf.kernel = ParseKernel(Text(*node), Where(*node));
     if (const auto* node = table_.get("tail"))
       region.rbf.tail = ParseTail(Text(*node), Where(*node));
-    region.rbf.epsilon = Number("epsilon", region.rbf.epsilon);
-    region.rbf.smoothing = Number("smoothing", region.rbf.smoothing);
-    region.rbf.tail_smoothing = Number("tail_smoothing", region.rbf.tail_smoothing);
+    region.rbf.epsilon = Setting("epsilon", rbf::RbfConfig{}.epsilon, region.rbf.epsilon);
+    region.rbf.smoothing = Setting("smoothing", kAutomatic, region.rbf.smoothing);
+    region.nnls.ridge = Setting("smoothing", kAutomatic, region.nnls.ridge);
+    region.rbf.tail_smoothing = Setting("tail_smoothing", kAutomatic, region.rbf.tail_smoothing);
     region.gap_gain = Number("gap_gain", 1);
     Indices("points", training_.markers, "marker", region.points);
     Indices("origin", training_.markers, "marker", region.origin);
     Indices("targets", training_.signals, "target", region.outputs);
     ReadGaps(region);
-    const float axes = Number("axes", 0);
     if (region.inputs() == 0) Fail(table_, "a region needs points or gaps");
     if (region.outputs.empty()) Fail(table_, "a region needs targets");
-    if (axes != std::floor(axes) || axes > static_cast<float>(region.inputs()))
-      Fail(*table_.get("axes"), "axes has to be a whole number up to the region's " +
-                                    std::to_string(region.inputs()) + " inputs");
-    region.axes = static_cast<std::uint16_t>(axes);
+    region.axes = Axes(region);
     return region;
   }
 
@@ -108,6 +110,22 @@ class RegionReader {
     if (!value || !std::isfinite(*value) || *value < 0)
       Fail(*node, std::string(key) + " has to be a number from 0 up");
     return static_cast<float>(value.value_or(0));
+  }
+
+  // As Number, or "auto".
+  float Setting(const char* key, float automatic, float otherwise) const {
+    const toml::node* node = table_.get(key);
+    if (node != nullptr && node->is_string() && Text(*node) == "auto") return automatic;
+    return Number(key, otherwise);
+  }
+
+  std::uint16_t Axes(const RegionConfig& region) const {
+    const auto most = static_cast<float>(region.inputs());
+    const float axes = Number("axes", std::min(static_cast<float>(region.axes), most));
+    if (axes != std::floor(axes) || axes > most)
+      Fail(*table_.get("axes"), "axes has to be a whole number up to the region's " +
+                                    std::to_string(region.inputs()) + " inputs");
+    return static_cast<std::uint16_t>(axes);
   }
 
   const toml::array* Array(const char* key) const {
@@ -169,6 +187,10 @@ void CheckThatEveryTargetIsInOneRegion(const std::filesystem::path& path,
 
 }  // namespace
 
+retarget::Method ParseMethod(std::string_view name, const std::string& where) {
+  return Parse(kMethods, name, where);
+}
+
 rbf::Kernel ParseKernel(std::string_view name, const std::string& where) {
   return Parse(kKernels, name, where);
 }
@@ -179,7 +201,7 @@ rbf::Tail ParseTail(std::string_view name, const std::string& where) {
 
 std::vector<RegionConfig> ReadRegions(const std::filesystem::path& path,
                                       const app::TrainingSet& training,
-                                      const rbf::RbfConfig& defaults) {
+                                      const RegionConfig& defaults) {
   if (!std::filesystem::is_regular_file(path))
     throw app::BadInput(path.string() + ": there is no such file");
   toml::table file;
@@ -207,10 +229,9 @@ std::vector<RegionConfig> ReadRegions(const std::filesystem::path& path,
   return regions;
 }
 
-RegionConfig WholeFace(const app::TrainingSet& training, const rbf::RbfConfig& config) {
-  RegionConfig region;
+RegionConfig WholeFace(const app::TrainingSet& training, const RegionConfig& defaults) {
+  RegionConfig region = defaults;
   region.name = ShortName::From("face").value_or(ShortName{});
-  region.rbf = config;
   bool fits = true;
   for (std::size_t i = 0; i < training.markers.size(); ++i)
     fits = fits && region.points.try_push(static_cast<std::uint16_t>(i));
@@ -222,6 +243,9 @@ RegionConfig WholeFace(const app::TrainingSet& training, const rbf::RbfConfig& c
                         std::to_string(training.markers.size()) + " and " +
                         std::to_string(training.signals.size()) +
                         "; --regions reads some of them, and record --markers keeps some");
+  if (region.axes > region.inputs())
+    throw app::BadInput("--axes: " + std::to_string(region.axes) + " is more than the " +
+                        std::to_string(region.inputs()) + " coordinates of the markers");
   return region;
 }
 

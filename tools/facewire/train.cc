@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "app/profile_file.h"
 #include "tools/facewire/commands.h"
 #include "tools/facewire/region_file.h"
+#include "tools/facewire/settings.h"
 #include "tools/facewire/training_files.h"
 
 namespace facewire::tools {
@@ -18,33 +20,42 @@ namespace {
 
 struct TrainOptions {
   std::string markers, targets, out, regions;
+  std::string method = "rbf";
   std::string kernel = "multiquadric";
   std::string epsilon = "auto";
-  std::string tail = "none";
-  float smoothing = 0;
-  float tail_smoothing = 0;
+  std::string smoothing = "auto";
+  std::string tail = "linear";
+  std::string tail_smoothing = "auto";
+  std::uint16_t axes = 0;
   std::size_t neutral_row = 1;
   bool average_user = false;
 };
 
-rbf::RbfConfig ToConfig(const TrainOptions& options) {
-  rbf::RbfConfig config;
-  config.kernel = ParseKernel(options.kernel, "--kernel: ");
-  config.tail = ParseTail(options.tail, "--tail: ");
-  config.smoothing = options.smoothing;
-  config.tail_smoothing = options.tail_smoothing;
-  for (const auto& [name, value] : {std::pair{"--smoothing", options.smoothing},
-                                    std::pair{"--tail-smoothing", options.tail_smoothing}})
-    if (!std::isfinite(value) || value < 0)
-      throw app::BadInput(std::string(name) + ": has to be a number from 0 up");
-  if (options.epsilon == "auto") return config;
-  const char* end = options.epsilon.data() + options.epsilon.size();
-  const auto [parsed, error] = std::from_chars(options.epsilon.data(), end, config.epsilon);
-  if (error != std::errc{} || parsed != end || !std::isfinite(config.epsilon) ||
-      config.epsilon <= 0)
-    throw app::BadInput("--epsilon: \"" + options.epsilon +
-                        "\" is neither auto nor a positive number");
-  return config;
+// "auto", or a number from `least` up.
+float ParseSetting(const char* option, const std::string& text, float automatic, float least) {
+  if (text == "auto") return automatic;
+  float value = 0;
+  const char* end = text.data() + text.size();
+  const auto [parsed, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || parsed != end || !std::isfinite(value) || value < least)
+    throw app::BadInput(std::string(option) + ": \"" + text + "\" is neither auto nor a " +
+                        (least > 0 ? "positive number" : "number from 0 up"));
+  return value;
+}
+
+retarget::RegionConfig ToDefaults(const TrainOptions& options) {
+  retarget::RegionConfig region;
+  region.method = ParseMethod(options.method, "--method: ");
+  region.axes = options.axes;
+  region.rbf.kernel = ParseKernel(options.kernel, "--kernel: ");
+  region.rbf.tail = ParseTail(options.tail, "--tail: ");
+  region.rbf.epsilon = ParseSetting("--epsilon", options.epsilon, rbf::RbfConfig{}.epsilon,
+                                    std::numeric_limits<float>::min());
+  region.rbf.smoothing = ParseSetting("--smoothing", options.smoothing, kAutomatic, 0);
+  region.nnls.ridge = region.rbf.smoothing;
+  region.rbf.tail_smoothing =
+      ParseSetting("--tail-smoothing", options.tail_smoothing, kAutomatic, 0);
+  return region;
 }
 
 app::TrainingSet ReadPairs(const TrainOptions& options) {
@@ -91,22 +102,27 @@ void PrintTable(const app::TrainingSet& training, const std::vector<float>& leav
 }
 
 void Train(const TrainOptions& options) {
-  const rbf::RbfConfig config = ToConfig(options);
+  const retarget::RegionConfig defaults = ToDefaults(options);
   app::TrainingSet training = ReadPairs(options);
-  training.regions = options.regions.empty() ? std::vector{WholeFace(training, config)}
-                                             : ReadRegions(options.regions, training, config);
+  training.regions = options.regions.empty() ? std::vector{WholeFace(training, defaults)}
+                                             : ReadRegions(options.regions, training, defaults);
   DropUnusedMarkers(training);
+  std::vector<Choice> choices;
+  // What does not pass is refused by Profile below, in words.
+  if (retarget::ExpressionMapping::Check(training.view())) {
+    for (std::size_t r = 0; r < training.regions.size(); ++r)
+      choices.push_back(ChooseSettings(training, r));
+  }
   std::vector<float> leave_one_out(training.targets.size());
   const app::Profile profile(training, options.markers, leave_one_out);
   // What was chosen here is written down, so that loading does not search again.
   for (std::size_t r = 0; r < training.regions.size(); ++r)
-    training.regions[r].rbf.epsilon = profile.mapping().epsilon(r);
+    if (training.regions[r].method == retarget::Method::kRbf)
+      training.regions[r].rbf.epsilon = profile.mapping().epsilon(r);
   app::SaveProfile(options.out, training);
 
-  for (const retarget::RegionConfig& region : training.regions)
-    std::printf("region %s: %zu inputs, %zu targets, epsilon %.4g per unit\n",
-                std::string(region.name.view()).c_str(), region.inputs(), region.outputs.size(),
-                static_cast<double>(region.rbf.epsilon));
+  for (std::size_t r = 0; r < training.regions.size(); ++r)
+    std::printf("%s\n", Describe(training.regions[r], choices[r]).c_str());
   PrintTable(training, leave_one_out);
   std::printf("%s: %zu rows, %zu markers, %zu targets; %zu kB in memory\n", options.out.c_str(),
               training.view().sample_count(), training.markers.size(), training.signals.size(),
@@ -124,13 +140,22 @@ void AddTrain(CLI::App& facewire) {
   train->add_option("--targets", options->targets, "CSV with any named numbers, row by row")
       ->required();
   train->add_option("--out", options->out, "The profile to write")->required();
+  train->add_option(
+      "--method", options->method,
+      "rbf: radial basis functions (Umenhoffer 2012); nnls: non-negative least squares "
+      "on blend-shape positions (Choe 2001)");
+  train->add_option("--axes", options->axes,
+                    "Take the inputs in so many principal axes (PCA; Pyun 2003, Deng 2006); 0: as "
+                    "they are");
   train->add_option("--kernel", options->kernel,
-                    "multiquadric, inverse-multiquadric, gaussian, linear or cubic");
+                    "multiquadric (the paper's), inverse-multiquadric, gaussian, linear or cubic");
   train->add_option("--epsilon", options->epsilon,
-                    "Shape of the kernel per cm; auto: least leave-one-out error");
-  train->add_option("--smoothing", options->smoothing, "0: through every sample");
+                    "Shape of the kernel per cm, or auto: least leave-one-out error");
+  train->add_option("--smoothing", options->smoothing,
+                    "0: through every sample; or auto: least leave-one-out error");
   train->add_option("--tail", options->tail, "none, constant or linear");
-  train->add_option("--tail-smoothing", options->tail_smoothing, "The same for a linear tail");
+  train->add_option("--tail-smoothing", options->tail_smoothing,
+                    "The same for a linear tail; auto or a number");
   train->add_option("--neutral", options->neutral_row, "Row that is the face at rest, from 1");
   train->add_flag("--average-user", options->average_user,
                   "The rows are an average face: take performers there by their neutral first");

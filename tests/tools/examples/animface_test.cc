@@ -96,6 +96,8 @@ TEST(AnimFaceExample, KeepsTheTakesFramesAndTimes) {
     EXPECT_NEAR(times[i], static_cast<double>(i) * 1e6 / 60, 1) << i;
   const std::string json = Scratch::Read(c.scratch / "out/curves.jsonl");
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(json, '\n')), times.size());
+  EXPECT_EQ(Scratch::Read(c.scratch / "out/curves.glb").substr(0, 4), "glTF");
+  EXPECT_EQ(Scratch::Read(c.scratch / "out/training.png").substr(1, 3), "PNG");
 }
 
 TEST(AnimFaceExample, NamesTheFrameWhoseValuesAreMissing) {

@@ -88,13 +88,14 @@ TEST(Train, PrintsTheLeaveOneOutErrorOfEachTarget) {
 TEST(Train, KeepsTheChosenSettings) {
   Context c;
   c.Train({"--kernel", "gaussian", "--epsilon", "0.7", "--smoothing", "0.1", "--tail", "constant",
-           "--neutral", "3", "--average-user"});
+           "--neutral", "3", "--average-user", "--axes", "2"});
   const app::TrainingSet training = app::ReadTrainingSet(c.Out());
   ASSERT_EQ(training.regions.size(), 1U);
   EXPECT_EQ(training.regions[0].rbf.kernel, rbf::Kernel::kGaussian);
   EXPECT_EQ(training.regions[0].rbf.tail, rbf::Tail::kConstant);
   EXPECT_EQ(training.regions[0].rbf.epsilon, 0.7F);
   EXPECT_EQ(training.regions[0].rbf.smoothing, 0.1F);
+  EXPECT_EQ(training.regions[0].axes, 2);
   EXPECT_EQ(training.neutral_sample, 2U);
   EXPECT_TRUE(training.average_user);
 }
@@ -103,6 +104,59 @@ TEST(Train, WritesTheAutomaticEpsilonDownSoThatLoadingIsQuick) {
   Context c;
   c.Train();
   EXPECT_GT(app::ReadTrainingSet(c.Out()).regions[0].rbf.epsilon, 0);
+}
+
+TEST(Train, MeetsEveryRowWhenNoRowIsKnownFromTheOthers) {
+  Context c;
+  c.markers = "lip_x,lip_y,lip_z,lid_x,lid_y,lid_z\n0,0,0,3,3,0\n0,-2,0,3,3,0\n0,0,0,3,2,0\n";
+  c.targets = "jaw,blink\n0,0\n1,0\n0,1\n";
+  c.Train();
+  EXPECT_THAT(c.output, HasSubstr("smoothing 0, "));
+  EXPECT_THAT(c.output, HasSubstr("chosen to meet every row"));
+  // Both at once, which no row shows: motion adds up.
+  const auto both = c.At({{0, -2, 0}, {3, 2, 0}});
+  EXPECT_NEAR(both[0], 1, 0.05F);
+  EXPECT_NEAR(both[1], 1, 0.05F);
+}
+
+TEST(Train, SmoothsAsMuchAsTheOtherRowsSay) {
+  Context c;
+  c.markers = "lip_x,lip_y,lip_z\n";
+  c.targets = "jaw\n";
+  for (int row = 0; row < 40; ++row) {
+    // A straight line in half a millimetre of noise.
+    const double open = row % 20 * 0.1;
+    c.markers += "0," + std::to_string(-open + 0.05 * std::sin(91.0 * row)) + ",0\n";
+    c.targets += std::to_string(open) + "\n";
+  }
+  c.Train();
+  EXPECT_THAT(c.output, HasSubstr("chosen for the least leave-one-out error"));
+  EXPECT_GT(app::ReadTrainingSet(c.Out()).regions[0].rbf.smoothing, 0);
+}
+
+TEST(Train, NonNegativeLeastSquaresAreAMethodToo) {
+  Context c;
+  c.Train({"--method", "nnls"});
+  EXPECT_EQ(app::ReadTrainingSet(c.Out()).regions[0].method, retarget::Method::kNnls);
+  EXPECT_THAT(c.output, HasSubstr("non-negative least squares"));
+  EXPECT_NEAR(c.At({{0, -1, 0}, {3, 2, 0}})[0], 10, 1e-2);
+  EXPECT_EQ(c.At({{0, 5, 0}, {3, 4, 0}})[0], 0) << "never below what was trained";
+}
+
+TEST(Train, TheMethodIsTheRegionsOwn) {
+  Context c;
+  const auto regions = c.scratch.Write("r.toml",
+                                       "[[region]]\nname = \"mouth\"\npoints = [\"lip\"]\n"
+                                       "targets = [\"jaw_deg\"]\nmethod = \"nnls\"\n"
+                                       "[[region]]\nname = \"eye\"\npoints = [\"lid\"]\n"
+                                       "targets = [\"blink\"]\nsmoothing = 0.01\n");
+  c.Train({"--regions", regions.string(), "--axes", "2"});
+  const auto trained = app::ReadTrainingSet(c.Out()).regions;
+  EXPECT_EQ(trained[0].method, retarget::Method::kNnls);
+  EXPECT_EQ(trained[0].axes, 2);
+  EXPECT_EQ(trained[1].method, retarget::Method::kRbf);
+  EXPECT_EQ(trained[1].rbf.smoothing, 0.01F);
+  EXPECT_NEAR(c.At({{0, -1, 0}, {3, 3, 0}})[0], 10, 1e-2);
 }
 
 TEST(Train, RegionsKeepTheirMarkersApart) {
@@ -176,7 +230,17 @@ TEST(Train, BadInputIsOneLineAndLeavesNothing) {
   EXPECT_THAT(with(nullptr, nullptr, {"--epsilon", "-1"}), HasSubstr("neither auto nor"));
   EXPECT_THAT(with(nullptr, nullptr, {"--smoothing", "-1"}), HasSubstr("--smoothing: "));
   EXPECT_THAT(with(nullptr, nullptr, {"--neutral", "6"}), HasSubstr("rows 1 to 5"));
-  EXPECT_THAT(with(nullptr, nullptr, {"--tail", "linear"}), HasSubstr("linear tail"));
+  EXPECT_THAT(with(nullptr, nullptr, {"--tail-smoothing", "0"}), HasSubstr("linear tail"));
+  EXPECT_THAT(with(nullptr, nullptr, {"--tail-smoothing", "much"}),
+              HasSubstr("--tail-smoothing: \"much\" is neither auto nor a number from 0 up"));
+  EXPECT_THAT(with(nullptr, nullptr, {"--method", "magic"}), HasSubstr("one of rbf, nnls"));
+  EXPECT_THAT(with(nullptr, nullptr, {"--axes", "7"}), HasSubstr("more than the 6 coordinates"));
+  EXPECT_THAT(
+      with(nullptr, "a,b\n0,0\n1,1\n2,2\n0,0\n1,1\n", {"--method", "nnls", "--smoothing", "0"}),
+      HasSubstr("what target \"b\" moves"));
+  EXPECT_THAT(with("a_x,a_y,a_z\n0,0,0\n1,0,0\n2,0,0\n1,0,0\n5,0,0\n", nullptr,
+                   {"--method", "nnls", "--smoothing", "0"}),
+              HasSubstr("rows 2 and 4 have the same markers and other targets"));
   EXPECT_THAT(with(nullptr, nullptr, {"--regions", "none.toml"}), HasSubstr("none.toml"));
 }
 
@@ -195,6 +259,8 @@ TEST(Train, ABadRegionFileIsNamedWithItsLine) {
   EXPECT_THAT(with(eye + "origin = [\"nose\"]\n"),
               HasSubstr("r.toml:5: there is no marker \"nose\""));
   EXPECT_THAT(with(eye + "smoothing = -1\n"), HasSubstr("r.toml:5: smoothing"));
+  EXPECT_THAT(with(eye + "method = \"magic\"\n"), HasSubstr("r.toml:5: \"magic\""));
+  EXPECT_THAT(with(eye + "smoothing = \"some\"\n"), HasSubstr("r.toml:5: smoothing"));
   EXPECT_THAT(with(eye + "axes = 4\n"), HasSubstr("r.toml:5: axes"));
   EXPECT_THAT(with(eye + "kernel = \"sinc\"\n"), HasSubstr("r.toml:5: \"sinc\""));
   EXPECT_THAT(with("[[region]]\nname = \"x\"\ntargets = [\"blink\"]\n"), HasSubstr("needs points"));
