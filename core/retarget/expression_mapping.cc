@@ -10,8 +10,6 @@
 namespace facewire::retarget {
 namespace {
 
-}
-
 bool IsValid(const RegionConfig& region, std::size_t markers, std::size_t signals) noexcept {
   const auto is_marker = [markers](std::uint16_t i) { return i < markers; };
   return region.inputs() > 0 && !region.outputs.empty() && region.axes <= region.inputs() &&

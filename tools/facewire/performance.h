@@ -29,8 +29,13 @@ class Performance {
   virtual std::optional<Moment> Next() = 0;
 };
 
-// A video: tracked, filtered and freed from head motion as the service does it.
-std::unique_ptr<Performance> OpenVideo(const FaceOptions& options);
+// What is done to landmarks over time. Stills are no film: smoothing would mix one into the next.
+enum class Smoothing { kAsTheService, kNone };
+
+// A video, a camera or a landmark file: tracked or read, smoothed, and freed from head motion as
+// the service does it.
+std::unique_ptr<Performance> OpenVideo(const FaceOptions& options,
+                                       Smoothing smoothing = Smoothing::kAsTheService);
 
 // Recorded markers (tools/markers/take.h), in the places of `layout`. `rigid` names markers
 // that only follow the head, at least three not on one line: head motion is removed by their fit to

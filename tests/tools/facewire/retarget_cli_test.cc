@@ -53,7 +53,7 @@ TEST(FacewireRetarget, NamesTheMarkersThatAProfileMisses) {
   const Outcome outcome = RunFacewire({"retarget", other, "--rig", scratch.Write("rig.toml", kRig),
                                        "--profile", profile, "--out", scratch.Path("out.jsonl")});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("lipL, lipR"));
+  EXPECT_THAT(outcome.err, HasSubstr("there is no marker lipL, and no lipR"));
 }
 
 // The performer's own profile wants half of jawOpen.
