@@ -193,7 +193,8 @@ void Retargeter::ReadExpressions(const FacePose& face) noexcept {
     }
   }
   expressions_->Evaluate(std::span(points).first(indices.size()),
-                         std::span(signals_).first(expressions_->signals().size()));
+                         std::span(signals_).first(expressions_->signals().size()),
+                         std::span(novelty_).first(expressions_->region_count()));
 }
 
 void Retargeter::ReadHead(const FacePose& face) noexcept {

@@ -57,6 +57,10 @@ class Retargeter {
   std::span<const float> signals() const noexcept {
     return std::span(signals_).first(signal_count_);
   }
+  // Of the last Update, one per region of the mapping: see ExpressionMapping::Evaluate.
+  std::span<const float> novelty() const noexcept {
+    return std::span(novelty_).first(expressions_ == nullptr ? 0 : expressions_->region_count());
+  }
   // Name of signals()[index].
   std::string_view signal_name(std::size_t index) const noexcept;
 
@@ -96,6 +100,7 @@ class Retargeter {
 
   std::array<float, kMaxSignals + kHeadSignals.size()> signals_{};
   std::size_t signal_count_ = 0;
+  std::array<float, kMaxRegions> novelty_{};
   std::array<Point3, kMaxBones> offsets_cm_{};  // of bones from their rest, this frame
 };
 
