@@ -2,9 +2,11 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
+#include "app/answer_text.h"
 #include "app/devices.h"
 #include "app/error.h"
 #include "app/networks.h"
@@ -55,11 +57,27 @@ CameraOptions CameraOptionsOf(const CameraConfig& camera) {
   return options;
 }
 
-std::vector<std::string> SignalNames(const Profile* profile) {
+const retarget::ExpressionMapping* MappingOf(const std::unique_ptr<Profile>& profile) {
+  return profile == nullptr ? nullptr : &profile->mapping();
+}
+
+std::vector<std::string> SignalNames(const std::unique_ptr<Profile>& profile) {
   std::vector<std::string> names;
   if (profile == nullptr) return names;
   for (const ShortName& signal : profile->mapping().signals()) names.emplace_back(signal.view());
   return names;
+}
+
+// Null for an empty path. A camera shows landmarks, nobody's markers.
+std::unique_ptr<Profile> LoadLiveProfile(const std::filesystem::path& path) {
+  if (path.empty()) return nullptr;
+  auto profile = LoadProfile(path);
+  if (!profile->mapping().reads_landmarks()) {
+    throw BadInput(path.string() + ": reads markers (\"" +
+                   std::string(profile->mapping().markers().front().view()) +
+                   "\", ...) that a camera does not show; train it with landmarks, lm0 to lm477");
+  }
+  return profile;
 }
 
 // One line to the journal; never more than once a second from the loop. Does not allocate.
@@ -69,6 +87,13 @@ void Log(const char* text) noexcept {
   if (size <= 0) return;
   const auto shown = std::min(static_cast<std::size_t>(size), line.size() - 1);
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), shown);
+}
+
+void LogAnswer(const wire::Acknowledgement& answer) noexcept {
+  std::array<char, 256> text;
+  (void)std::snprintf(text.data(), text.size(), "button: %s: %s", Name(answer.code),
+                      AnswerText(answer).data());
+  Log(text.data());
 }
 
 // Calls `part`; what is wrong with it joins what was wrong before.
@@ -117,8 +142,13 @@ void Application::Build() {
   bool have_profile = true;
   Collect(problems, [&] {
     have_profile = false;
-    if (!config_.character.profile.empty()) profile_ = LoadProfile(config_.character.profile);
+    profile_ = LoadLiveProfile(config_.character.profile);
     have_profile = true;
+  });
+  bool have_personal = false;
+  Collect(problems, [&] {
+    personal_ = LoadLiveProfile(config_.character.personal);
+    have_personal = true;
   });
   for (std::span<std::byte>& memory : character_memory_) {
     memory = {static_cast<std::byte*>(arena_->Allocate(character_bytes, kAlignment)),
@@ -126,8 +156,8 @@ void Application::Build() {
     if (memory.data() == nullptr) throw Failure("the block of memory is too small");
   }
   Collect(problems, [&] {
-    // Without the profile its signals are unknown, and complaining about each would hide the cause.
-    if (have_profile) {
+    // Without a profile its signals are unknown, and complaining about each would hide the cause.
+    if (have_profile && have_personal) {
       BuildCharacter(config_, characters_[running_], character_memory_[running_]);
     } else {
       (void)LoadRig(config_.character.rig);
@@ -145,18 +175,20 @@ void Application::Build() {
 
 void Application::BuildCharacter(const Config& config, std::optional<Character>& character,
                                  std::span<std::byte> memory) const {
-  const std::vector<std::string> signals = SignalNames(profile_.get());
+  std::vector<std::string> signals = SignalNames(profile_);
+  const std::vector<std::string> own = SignalNames(personal_);
+  signals.insert(signals.end(), own.begin(), own.end());
   const Rig rig = LoadRig(config.character.rig, &signals);
   character.emplace();
   character->rig = rig;
   character->rig_id = wire::RigId(rig);
   Arena arena(memory);
-  const retarget::ExpressionMapping* expressions =
-      profile_ == nullptr ? nullptr : &profile_->mapping();
-  if (const Result<> ok = character->retargeter.Configure(character->rig, expressions, arena);
+  if (const Result<> ok = character->retargeter.Configure(character->rig, MappingOf(profile_),
+                                                          arena, MappingOf(personal_));
       !ok) {
     throw Failure(config.character.rig.string() + ": " + Name(ok.error()));
   }
+  character->retargeter.SetBlend(config.character.blend);
 }
 
 bool Application::PlaysFast() const {
@@ -175,6 +207,8 @@ ServiceConfig Application::ServiceConfigOf(const Config& config) const {
 }
 
 void Application::Open() {
+  // First, so that a second service hears of the first one and not of a busy camera.
+  const std::string no_control = OpenControl();
   if (camera_address_.empty()) {
     // Nothing to play: a grey picture, in which nobody is.
     blank_view_.width_px = config_.camera.width_px;
@@ -200,16 +234,39 @@ void Application::Open() {
   if (!line_->Open()) throw Failure(line_address_ + ": was lost while starting");
   service_.emplace(
       ServiceConfigOf(config_),
-      ServiceParts{.camera = *camera_,
-                   .line = *line_,
-                   .clock = clock_,
-                   .follower = follower_,
-                   .capture = capture_,
-                   .stop = nullptr,
-                   .keep_neutral =
-                       [this](const retarget::Neutral& neutral) { return KeepNeutral(neutral); }},
+      ServiceParts{
+          .camera = *camera_,
+          .line = *line_,
+          .clock = clock_,
+          .follower = follower_,
+          .capture = capture_,
+          .control = &control_,
+          .stop = nullptr,
+          .calibrate = nullptr,
+          .keep_neutral = [this](const retarget::Neutral& neutral) { return KeepNeutral(neutral); },
+          .log_answer = LogAnswer},
       *characters_[running_]);
   TakeStoredNeutral();
+  if (!no_control.empty()) Log(no_control.c_str());
+}
+
+// Why there is no control socket although there should be one; "" when all is well. A puppet that
+// nobody on the board can command is still a puppet, so only another service at the
+// same place is a reason not to start: two would fight over one camera and one puppet. Mock
+// hardware leaves the device's own socket alone.
+std::string Application::OpenControl() {
+  const std::filesystem::path& socket = config_.control.socket;
+  if (socket.empty() || (options_.fake && socket == ControlConfig{}.socket)) return "";
+  const Result<> opened = control_.Open(socket.string());
+  if (opened) return "";
+  if (opened.error() == Errc::kBusy) {
+    throw BadInput(socket.string() +
+                   ": another facewired serves this control socket; stop that one, or give this "
+                   "one another [control] socket");
+  }
+  const bool folder = opened.error() == Errc::kNotFound;
+  return "running without the control socket " + socket.string() + ": " +
+         (folder ? "its folder does not exist" : Name(opened.error()));
 }
 
 // A neutral that cannot be used must not keep a board from starting: the performer is there to give
@@ -284,6 +341,9 @@ void Application::Reload() {
     const Config fresh = LoadConfig(options_.config);
     const std::size_t idle = 1 - running_;
     BuildCharacter(fresh, characters_[idle], character_memory_[idle]);
+    // A blend that was set live stays, unless the file has another one than before.
+    if (fresh.character.blend == config_.character.blend)
+      characters_[idle]->retargeter.SetBlend(characters_[running_]->retargeter.blend());
     if (const Result<> ok = service_->Reload(ServiceConfigOf(fresh), *characters_[idle]); !ok) {
       throw BadInput(fresh.character.rig.string() + ": " + Name(ok.error()));
     }
@@ -291,7 +351,8 @@ void Application::Reload() {
     config_.states = fresh.states;
     config_.filter = fresh.filter;
     config_.character.rig = fresh.character.rig;
-    Log("reloaded rig, filter, rates and state times; other changes need a restart");
+    config_.character.blend = fresh.character.blend;
+    Log("reloaded rig, blend, filter, rates and state times; other changes need a restart");
   } catch (const std::exception& e) {
     Log((std::string("not reloaded, running on as before: ") + e.what()).c_str());
   }
@@ -311,8 +372,25 @@ std::string Application::Summary() const {
                : config_.character.profile.string() + ": " +
                      std::to_string(profile_->mapping().signals().size()) + " signals") +
           "\n";
+  text += "personal " + PersonalSummary() + "\n";
   text += "host     " + (line_address_.empty() ? "none" : line_address_) + "\n";
+  text += "control  " +
+          (config_.control.socket.empty() ? "none" : config_.control.socket.string()) + "\n";
   return text;
+}
+
+std::string Application::PersonalSummary() const {
+  if (personal_ == nullptr) return "none";
+  const auto own = personal_->mapping().signals();
+  const auto shared = std::ranges::count_if(own, [&](const ShortName& signal) {
+    return profile_ != nullptr && std::ranges::find(profile_->mapping().signals(), signal) !=
+                                      profile_->mapping().signals().end();
+  });
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), ": %zu signals, %zu of them shared, blend %.2f",
+                own.size(), static_cast<std::size_t>(shared),
+                static_cast<double>(config_.character.blend));
+  return config_.character.personal.string() + text.data();
 }
 
 MemoryReport Application::Memory() const {
@@ -325,6 +403,8 @@ MemoryReport Application::Memory() const {
       {"neutral capture", retarget::NeutralCapture::RequiredBytes(),
        "frames of a performer's face at rest"},
       {"profile", profile_ == nullptr ? 0 : profile_->bytes(), "the expression mapping"},
+      {"personal profile", personal_ == nullptr ? 0 : personal_->bytes(),
+       "the performer's own expression mapping"},
       {"service", sizeof(Application), "states, limits, rigs, frames of the line, counters"},
   };
   std::size_t footage = static_cast<std::size_t>(config_.camera.replay.memory_mib) << 20U;

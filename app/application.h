@@ -13,6 +13,7 @@
 
 #include "app/character.h"
 #include "app/config.h"
+#include "app/control.h"
 #include "app/follower.h"
 #include "app/host_line.h"
 #include "app/profile_file.h"
@@ -72,7 +73,9 @@ class Application {
   bool PlaysFast() const;
   std::filesystem::path NeutralFile() const { return config_.neutral.folder / "performer.neutral"; }
   void TakeStoredNeutral();
+  std::string OpenControl();
   bool KeepNeutral(const retarget::Neutral& neutral) const;
+  std::string PersonalSummary() const;
   void Reload();
   void Supervise();
   void LogStateChange();
@@ -85,7 +88,8 @@ class Application {
   std::unique_ptr<std::byte[]> block_;  // networks, characters, capture: in this order
   std::optional<Arena> arena_;
   FramePath path_;
-  std::unique_ptr<Profile> profile_;  // or none: bones only
+  std::unique_ptr<Profile> profile_;   // or none: bones only
+  std::unique_ptr<Profile> personal_;  // or none
   std::array<std::span<std::byte>, 2> character_memory_;
   std::array<std::optional<Character>, 2> characters_;  // one runs, a reload builds the other
   std::size_t running_ = 0;
@@ -99,6 +103,7 @@ class Application {
   std::string line_address_;  // empty: no line
   std::unique_ptr<hal::SerialPort> port_;
   std::optional<HostLine> line_;
+  Control control_;
   std::optional<Service> service_;
 
   Supervisor supervisor_;

@@ -21,52 +21,93 @@ bool LipsAreOpen(const retarget::Neutral& face) noexcept {
          Calibration::kClosedLips * Distance(face, kRightEyeOuter, kLeftEyeOuter);
 }
 
+wire::CommandResult ResultOf(retarget::Unrest::Kind kind) noexcept {
+  using Kind = retarget::Unrest::Kind;
+  switch (kind) {
+    case Kind::kHeadTurned:
+      return wire::CommandResult::kHeadTurned;
+    case Kind::kHeadMoved:
+      return wire::CommandResult::kHeadMoved;
+    case Kind::kFaceMoved:
+      return wire::CommandResult::kFaceMoved;
+    case Kind::kEyesClosed:
+      return wire::CommandResult::kEyesClosed;
+    case Kind::kMouthOpen:
+      return wire::CommandResult::kMouthOpen;
+    case Kind::kNone:
+      break;
+  }
+  return wire::CommandResult::kNoFace;  // not even a second of it was seen
+}
+
 }  // namespace
 
 void Calibration::BeginByItself() noexcept {
-  mode_ = Mode::kByItself;
+  by_itself_ = true;
   refused_ = 0;
-  capture_.Reset();
+  if (!request_) (void)capture_.Use(calm_);  // it was in use before
 }
 
-bool Calibration::Begin(const wire::Command& command) noexcept {
-  if (mode_ == Mode::kCommanded) return false;
-  mode_ = Mode::kCommanded;
-  command_ = command;
-  capture_.Reset();
+bool Calibration::Begin(const Request& request, Time now) noexcept {
+  if (request_) {
+    return request_->asker == request.asker && request_->command.id == request.command.id;
+  }
+  request_ = request;
+  until_ = now + kTryFor;
+  (void)capture_.Use(retarget::kStillSecond);  // a constant that is within its range
   return true;
 }
 
-bool Calibration::Update(const FacePose* face, Outcome& outcome) noexcept {
-  if (mode_ == Mode::kIdle) return false;
-  outcome.taken = false;
+bool Calibration::Update(Time now, const FacePose* face, Outcome& outcome) noexcept {
+  if (request_) return UpdateRequested(now, face, outcome);
+  return by_itself_ && UpdateByItself(face, outcome);
+}
+
+bool Calibration::Wait(Time now, Outcome& outcome) noexcept {
+  return request_ && now >= until_ && EndRequest(ResultOf(capture_.unrest().kind), outcome);
+}
+
+bool Calibration::UpdateByItself(const FacePose* face, Outcome& outcome) noexcept {
   if (face == nullptr) {
     capture_.Reset();
-    if (mode_ == Mode::kByItself) return false;
-    outcome.result = wire::CommandResult::kNoFace;
-  } else {
-    capture_.Add(*face);
-    if (capture_.progress() < 1) return false;
-    const Result<retarget::Neutral> neutral = capture_.Finish();
-    if (neutral && mode_ == Mode::kByItself && LipsAreOpen(*neutral) && ++refused_ < kPatience) {
-      capture_.Reset();
-      return false;
-    }
-    if (neutral) {
-      outcome.taken = true;
-      outcome.neutral = *neutral;
-      outcome.result = wire::CommandResult::kOk;
-    } else if (neutral.error() == Errc::kNotReady) {
-      return false;
-    } else {
-      capture_.Reset();
-      if (mode_ == Mode::kByItself) return false;  // the performer moves: once more
-      outcome.result = wire::CommandResult::kFailed;
-    }
+    return false;
   }
-  outcome.command =
-      mode_ == Mode::kCommanded ? std::optional<wire::Command>(command_) : std::nullopt;
-  mode_ = Mode::kIdle;
+  capture_.Add(*face);
+  if (capture_.progress() < 1) return false;
+  const Result<retarget::Neutral> neutral = capture_.Finish();
+  if (!neutral || (LipsAreOpen(*neutral) && ++refused_ < kPatience)) {
+    capture_.Reset();  // the performer moves, or does not look neutral: once more
+    return false;
+  }
+  outcome.request.reset();
+  outcome.result = wire::CommandResult::kOk;
+  outcome.taken = true;
+  outcome.neutral = *neutral;
+  by_itself_ = false;
+  return true;
+}
+
+bool Calibration::UpdateRequested(Time now, const FacePose* face, Outcome& outcome) noexcept {
+  if (face == nullptr) return EndRequest(wire::CommandResult::kNoFace, outcome);
+  capture_.Add(*face);
+  if (capture_.progress() < 1) return Wait(now, outcome);
+  const Result<retarget::Neutral> neutral = capture_.Finish();
+  if (!neutral) {
+    capture_.Slide();
+    return Wait(now, outcome);
+  }
+  outcome.neutral = *neutral;
+  by_itself_ = false;
+  return EndRequest(wire::CommandResult::kOk, outcome);
+}
+
+bool Calibration::EndRequest(wire::CommandResult result, Outcome& outcome) noexcept {
+  outcome.request = request_;
+  outcome.result = result;
+  outcome.measure = capture_.unrest().measure;
+  outcome.taken = result == wire::CommandResult::kOk;
+  request_.reset();
+  if (by_itself_) BeginByItself();  // its window was lost to the request
   return true;
 }
 

@@ -1,6 +1,9 @@
 #include "app/config.h"
 
+#include <string>
+
 #include "app/toml_reader.h"
+#include "hal/local/local_socket.h"
 
 namespace facewire::app {
 namespace {
@@ -96,6 +99,16 @@ void ReadHost(TableReader host, const std::filesystem::path& folder, HostConfig&
   host.Finish();
 }
 
+void ReadControl(TableReader control, const std::filesystem::path& folder, ControlConfig& config) {
+  ReadPath(control, "socket", folder, config.socket);
+  if (config.socket.native().size() > hal::local::kMaxPathLength) {
+    control.Problem("socket", "the path " + config.socket.string() +
+                                  " is too long for a socket; at most " +
+                                  std::to_string(hal::local::kMaxPathLength) + " characters");
+  }
+  control.Finish();
+}
+
 void ReadStates(TableReader states, state::StateConfig& config) {
   states.Milliseconds("start_ramp_ms", config.start_ramp, 60'000);
   states.Milliseconds("acquire_ms", config.acquire, 60'000);
@@ -126,12 +139,15 @@ Config LoadConfig(const std::filesystem::path& file) {
   TableReader character = top.Table("character");
   ReadPath(character, "rig", folder, config.character.rig);
   ReadPath(character, "profile", folder, config.character.profile);
+  ReadPath(character, "personal", folder, config.character.personal);
+  character.Number("blend", config.character.blend, {0, 1});
   character.Finish();
   TableReader neutral = top.Table("neutral");
   ReadPath(neutral, "folder", folder, config.neutral.folder);
   neutral.Number("auto_s", config.neutral.auto_s, {0, 60, "s"});
   neutral.Finish();
   ReadHost(top.Table("host"), folder, config.host);
+  ReadControl(top.Table("control"), folder, config.control);
   ReadStates(top.Table("states"), config.states);
   top.Finish();
   problems.ThrowIfAny();

@@ -41,6 +41,8 @@ struct TrackerFilesConfig {
 struct CharacterConfig {
   std::filesystem::path rig = "rig.toml";
   std::filesystem::path profile = "/usr/share/facewire/average.profile";  // empty: bones only
+  std::filesystem::path personal;  // a profile of the performer's own poses; empty: none
+  float blend = 1;                 // how much it counts at start, 0 to 1
 };
 
 struct NeutralConfig {
@@ -60,6 +62,11 @@ struct HostConfig {
       5;  // the rig's description again, for hosts that join later; 0 = on request
 };
 
+struct ControlConfig {
+  // A local socket on which the board's own programs give commands; empty: none.
+  std::filesystem::path socket = "/run/facewire/control";
+};
+
 struct Config {
   CameraConfig camera;
   TrackerFilesConfig tracker;
@@ -68,6 +75,7 @@ struct Config {
   CharacterConfig character;
   NeutralConfig neutral;
   HostConfig host;
+  ControlConfig control;
   state::StateConfig states;
 };
 

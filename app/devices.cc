@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/error.h"
+#include "hal/local/local_port.h"
 #include "hal/pty/pty_host.h"
 #include "hal/pty/pty_port.h"
 #include "hal/replay/replay_camera.h"
@@ -28,13 +29,14 @@ std::string Without(const std::string& text, std::string_view prefix) {
 class SerialLine final : public hal::SerialPort {
  public:
   SerialLine(const std::string& path, int baud)
-      : path_(path), pty_(path), tty_({.path = path, .baud = baud}) {}
+      : path_(path), local_(path), pty_(path), tty_({.path = path, .baud = baud}) {}
 
   Result<> Open() override {
-    const bool is_pty = hal::pty::IsPseudoTerminal(path_).value_or(false);
-    hal::SerialPort& chosen = is_pty ? static_cast<hal::SerialPort&>(pty_) : tty_;
-    if (&chosen != active_) active_->Close();
-    active_ = &chosen;
+    hal::SerialPort* chosen = &tty_;
+    if (hal::pty::IsPseudoTerminal(path_).value_or(false)) chosen = &pty_;
+    if (hal::local::IsSocket(path_).value_or(false)) chosen = &local_;
+    if (chosen != active_) active_->Close();
+    active_ = chosen;
     return active_->Open();
   }
   Result<std::size_t> Write(std::span<const std::byte> bytes,
@@ -49,6 +51,7 @@ class SerialLine final : public hal::SerialPort {
 
  private:
   std::string path_;
+  hal::local::LocalPort local_;
   hal::pty::PtyPort pty_;
   hal::serialport::SerialportPort tty_;
   hal::SerialPort* active_ = &tty_;

@@ -14,7 +14,7 @@
 // From what a person writes to the backend behind it, and from an Errc back to a line for a person.
 namespace facewire::app {
 
-// The serial line at `path`: a pseudo-terminal or a real tty, or a link to either. Which one is
+// The line at `path`: a pseudo-terminal, a real tty, a service's socket, or a link to one. Which is
 // looked up at every Open, because the device may come later than the program, or come back as
 // another.
 std::unique_ptr<hal::SerialPort> MakeSerialPort(const std::string& path, int baud);

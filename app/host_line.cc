@@ -62,10 +62,9 @@ std::optional<wire::Command> HostLine::NextCommand() noexcept {
   return std::nullopt;
 }
 
-void HostLine::Acknowledge(const wire::Command& command, wire::CommandResult result) noexcept {
+void HostLine::Acknowledge(const wire::Acknowledgement& answer) noexcept {
   // A host that floods the line loses answers, and asks again.
-  (void)answers_.try_push(
-      {.id = command.id, .code = command.code, .result = result, .now = clock_.Now()});
+  (void)answers_.try_push(answer);
 }
 
 bool HostLine::Send(const wire::Pose& pose, const wire::Status* status) noexcept {

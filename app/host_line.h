@@ -48,7 +48,7 @@ class HostLine {
   // The next command that has arrived, without waiting.
   std::optional<wire::Command> NextCommand() noexcept;
   // Queues the answer; it leaves with the next Send.
-  void Acknowledge(const wire::Command& command, wire::CommandResult result) noexcept;
+  void Acknowledge(const wire::Acknowledgement& answer) noexcept;
 
   // One tick: reopens a lost line when it is time, then sends. `status` may be null: not due.
   // True when the pose was handed over completely.

@@ -70,7 +70,13 @@ constexpr std::array kAxes = {
 };
 constexpr NumberRange kParameterRange{-1e6, 1e6};
 constexpr NumberRange kGainRange{-1e6, 1e6};
+constexpr NumberRange kChannelGainRange{-1000, 1000};
+constexpr NumberRange kKneeRange{0, 0.5};
 constexpr NumberRange kRateRange{0, 1e9};
+
+// The knee of a bone's axis that does not give one: wide enough to take the jolt out of a servo
+// that runs to its end. A parameter has none: a blend shape driven to 1 must be at 1.
+constexpr float kBoneKnee = 0.1F;
 
 std::string Shown(float number) {
   std::string text = std::to_string(number);
@@ -138,6 +144,7 @@ class RigReader {
       channel.bone = index;
       channel.min = 0;
       channel.max = 0;
+      channel.knee = kBoneKnee;
       const std::string name = std::string(bone.name.view()) + "." + std::string(axis.name);
       if (const auto made = ShortName::From(name)) {
         channel.name = *made;
@@ -190,6 +197,48 @@ class RigReader {
                      [&](std::string_view signal, double gain, const toml::source_region& where) {
                        AddDrive(where, table, signal, static_cast<float>(gain), channel);
                      });
+    ReadResponse(table, range, channel);
+  }
+
+  void ReadResponse(TableReader& table, const NumberRange& range, Channel& channel) {
+    Response& response = channel.response;
+    table.Number("gain", response.gain, kChannelGainRange);
+    table.Number("bias", response.bias, range);
+    const bool usable = ReadCurve(table, response);
+    table.Number("knee", channel.knee, kKneeRange);
+    const float at_rest = channel.neutral + static_cast<float>(Respond(response, 0));
+    const bool neutral_is_inside = channel.min <= channel.neutral && channel.neutral <= channel.max;
+    if (usable && neutral_is_inside && (at_rest < channel.min || at_rest > channel.max)) {
+      table.Problem(table.Has("bias") ? "bias" : "curve",
+                    "takes a neutral face to " + Shown(at_rest) + ", outside min to max, " +
+                        Shown(channel.min) + " to " + Shown(channel.max));
+    }
+  }
+
+  static bool ReadCurve(TableReader& table, Response& response) {
+    bool rises = true;
+    const auto problem = [&](const toml::source_region& where, const std::string& what) {
+      if (rises) table.ProblemAt(where, "curve", what);
+      rises = false;
+    };
+    const bool read = table.EachPair(
+        "curve", kParameterRange, [&](float in, float out, const toml::source_region& where) {
+          const CurvePoint* last =
+              response.curve.empty() ? nullptr : &response.curve[response.curve.size() - 1];
+          if (last != nullptr && in <= last->in) {
+            problem(where, "the point at " + Shown(in) + " comes after the one at " +
+                               Shown(last->in) + "; points go from left to right");
+          } else if (last != nullptr && out < last->out) {
+            problem(where, "falls from " + Shown(last->out) + " to " + Shown(out) +
+                               "; a curve only rises, a negative gain turns the channel around");
+          } else if (!response.curve.try_push({in, out})) {
+            problem(where, "too many points; the most is " + std::to_string(kMaxCurvePoints));
+          }
+        });
+    if (!read || !rises) return false;
+    if (!table.Has("curve") || response.curve.size() >= 2) return true;
+    table.Problem("curve", "needs two points at least, as [[0, 0], [1, 1]]");
+    return false;
   }
 
   void AddDrive(const toml::source_region& where, TableReader& table, std::string_view signal,

@@ -110,7 +110,7 @@ state::Sight Service::See(const Frame& frame) noexcept {
   }
   wish_.seq = frame.seq;
   wish_.captured = now_;
-  Calibrate(followed ? &followed->face : nullptr);
+  if (calibration_.Update(now_, followed ? &followed->face : nullptr, outcome_)) EndCalibration();
   return SightOf(followed);
 }
 
@@ -119,6 +119,7 @@ void Service::MissPicture(Errc why) noexcept {
   const Time clock = parts_.clock.Now();
   now_ = config_.media_time ? now_ + period() : std::max(now_, clock);
   wish_.captured = now_;
+  if (calibration_.Wait(now_, outcome_)) EndCalibration();
   deadline_ += period();
   if (deadline_ < clock) deadline_ = clock + period();
   if (why == Errc::kEnd) {
@@ -158,13 +159,32 @@ void Service::ReadCommands(state::Inputs& in) noexcept {
     stop_line_ = !asserted || *asserted;
   }
   in.stop = stop_line_;
-  while (const auto command = parts_.line.NextCommand()) Obey(*command, in);
+  while (const auto command = parts_.line.NextCommand()) Obey({.command = *command}, in);
+  if (parts_.control != nullptr) {
+    parts_.control->Poll();
+    while (const auto request = parts_.control->Next()) Obey(*request, in);
+  }
+  ReadButton(in);
 }
 
-void Service::Obey(const wire::Command& command, state::Inputs& in) noexcept {
+void Service::ReadButton(state::Inputs& in) noexcept {
+  if (parts_.calibrate == nullptr) return;
+  const Result<bool> down = parts_.calibrate->Get();
+  if (!down) {
+    button_.Forget();  // what nobody can read must not release an emergency stop
+    return;
+  }
+  const Button::Press press = button_.Update(*down, now_);
+  if (press == Button::Press::kNone) return;
+  const auto code = press == Button::Press::kShort ? wire::CommandCode::kCalibrateNeutral
+                                                   : wire::CommandCode::kRelease;
+  Obey({.command = {.code = code}, .asker = kButton}, in);
+}
+
+void Service::Obey(const Request& request, state::Inputs& in) noexcept {
   ++stats_.commands;
   wire::CommandResult result = wire::CommandResult::kOk;
-  switch (command.code) {
+  switch (request.command.code) {
     case wire::CommandCode::kPing:
       break;
     case wire::CommandCode::kDescribeRig:
@@ -173,8 +193,8 @@ void Service::Obey(const wire::Command& command, state::Inputs& in) noexcept {
     case wire::CommandCode::kCalibrateNeutral:
       if (motion_.state() != ServiceState::kTracking) {
         result = wire::CommandResult::kNoFace;
-      } else if (calibration_.Begin(command)) {
-        return;  // acknowledged when it is done
+      } else if (calibration_.Begin(request, now_)) {
+        return;  // answered when it is done
       } else {
         result = wire::CommandResult::kRefused;
       }
@@ -194,23 +214,44 @@ void Service::Obey(const wire::Command& command, state::Inputs& in) noexcept {
         rest_ = false;
       }
       break;
+    case wire::CommandCode::kBlendProfile: {
+      const float part = request.command.value;
+      if (!(part >= 0 && part <= 1) || !parts_.blend_profile || !parts_.blend_profile(part)) {
+        result = wire::CommandResult::kRefused;
+      }
+      break;
+    }
     default:
       result = wire::CommandResult::kUnknown;
   }
-  parts_.line.Acknowledge(command, result);
+  Answer(request, result);
 }
 
-void Service::Calibrate(const FacePose* face) noexcept {
-  if (!calibration_.Update(face, outcome_)) return;
+void Service::Answer(const Request& request, wire::CommandResult result, float measure) noexcept {
+  const wire::Acknowledgement answer{.id = request.command.id,
+                                     .code = request.command.code,
+                                     .result = result,
+                                     .now = parts_.clock.Now(),
+                                     .measure = measure};
+  if (request.asker == kHostLine) {
+    parts_.line.Acknowledge(answer);
+  } else if (request.asker == kButton) {
+    if (parts_.log_answer) parts_.log_answer(answer);
+  } else if (parts_.control != nullptr) {
+    parts_.control->Answer(request.asker, answer);
+  }
+}
+
+void Service::EndCalibration() noexcept {
   if (outcome_.taken) {
     const bool used = UseNeutral(outcome_.neutral).has_value();
     // What nobody asked for is provisional and not kept.
-    const bool keep = used && outcome_.command && parts_.keep_neutral;
+    const bool keep = used && outcome_.request && parts_.keep_neutral;
     if (!used || (keep && !parts_.keep_neutral(outcome_.neutral))) {
       outcome_.result = wire::CommandResult::kFailed;
     }
   }
-  if (outcome_.command) parts_.line.Acknowledge(*outcome_.command, outcome_.result);
+  if (outcome_.request) Answer(*outcome_.request, outcome_.result, outcome_.measure);
 }
 
 // The time for the host: in media time, how long the tick has taken is added to the picture's time.

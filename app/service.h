@@ -7,10 +7,13 @@
 #include <optional>
 
 #include "app/backoff.h"
+#include "app/button.h"
 #include "app/calibration.h"
 #include "app/character.h"
+#include "app/control.h"
 #include "app/follower.h"
 #include "app/host_line.h"
+#include "app/request.h"
 #include "app/service_stats.h"
 #include "core/frame_path/motion.h"
 #include "core/retarget/neutral.h"
@@ -38,9 +41,16 @@ struct ServiceParts {
   hal::Clock& clock;
   Follower& follower;
   retarget::NeutralCapture& capture;  // configured
+  Control* control = nullptr;         // opened; null: none
   hal::GpioInput* stop = nullptr;     // the emergency stop's line; null: none
+  // A button: short calibrates, long releases an emergency stop or a rest. Null: none.
+  hal::GpioInput* calibrate = nullptr;
   // Keeps a neutral that a command took, across boots. False: it could not be kept.
-  std::function<bool(const retarget::Neutral&)> keep_neutral;
+  std::function<bool(const retarget::Neutral&)> keep_neutral = {};
+  // Blends so much (0..1) of the personal profile in. False: there is none.
+  std::function<bool(float)> blend_profile = {};
+  // Hears what became of a press of the button, which has nobody else to tell.
+  std::function<void(const wire::Acknowledgement&)> log_answer = {};
 };
 
 // The running service: one thread, one tick after the other. A tick is a picture when there is one
@@ -83,8 +93,10 @@ class Service {
   void MissPicture(Errc why) noexcept;
   void RestartCamera() noexcept;
   void ReadCommands(state::Inputs& in) noexcept;
-  void Obey(const wire::Command& command, state::Inputs& in) noexcept;
-  void Calibrate(const FacePose* face) noexcept;
+  void ReadButton(state::Inputs& in) noexcept;
+  void Obey(const Request& request, state::Inputs& in) noexcept;
+  void Answer(const Request& request, wire::CommandResult result, float measure = 0) noexcept;
+  void EndCalibration() noexcept;
   void Send(const MotionOutput& out) noexcept;
   bool StatusDue() noexcept;
   Duration period() const noexcept { return Duration(1'000'000 / config_.min_rate_hz); }
@@ -113,6 +125,7 @@ class Service {
   bool quit_ = false;
   bool rest_ = false;
   bool stop_line_ = false;
+  Button button_;
   std::optional<std::size_t> blink_left_, blink_right_;
 
   Time started_{};

@@ -271,6 +271,35 @@ void TableReader::EachNumber(
   }
 }
 
+bool TableReader::EachPair(
+    std::string_view key, const NumberRange& range,
+    const std::function<void(float, float, const toml::source_region&)>& each) {
+  const toml::node* node = Find(key);
+  if (node == nullptr) return true;
+  const toml::array* array = node->as_array();
+  if (array == nullptr) {
+    WrongType(key, *node, "an array of pairs, as [[0, 0], [1, 1]]");
+    return false;
+  }
+  bool good = true;
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const std::string name = Name(key) + "[" + std::to_string(i) + "]";
+    const toml::array* pair = array->get(i)->as_array();
+    float first = 0;
+    float second = 0;
+    if (pair == nullptr || pair->size() != 2) {
+      problems_.Add(array->get(i)->source(), name + ": expected a pair of numbers, as [0, 0]");
+      good = false;
+    } else if (ReadNumber(name + "[0]", *pair->get(0), range, first) &&
+               ReadNumber(name + "[1]", *pair->get(1), range, second)) {
+      each(first, second, pair->source());
+    } else {
+      good = false;
+    }
+  }
+  return good;
+}
+
 bool TableReader::Require(std::string_view key, std::string_view what_it_is) {
   if (Find(key) != nullptr) return true;
   problems_.Add(table_ == nullptr ? toml::source_region{} : table_->source(),

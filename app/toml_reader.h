@@ -83,6 +83,10 @@ class TableReader {
   void EachNumber(
       std::string_view key,
       const std::function<void(std::string_view, double, const toml::source_region&)>& each);
+  // Calls `each` for every pair of an array of pairs of numbers ([[0, 0], [1, 1]]), each number
+  // within `range`. False when a problem was reported.
+  bool EachPair(std::string_view key, const NumberRange& range,
+                const std::function<void(float, float, const toml::source_region&)>& each);
 
   bool Has(std::string_view key) const;
   bool IsText(std::string_view key) const;

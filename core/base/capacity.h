@@ -12,6 +12,7 @@ inline constexpr std::size_t kMeshLandmarks = 468;
 inline constexpr std::size_t kMaxBones = 48;
 inline constexpr std::size_t kMaxChannels = 192;          // values in one RigPose
 inline constexpr std::size_t kMaxDrives = 8;              // signals that add up to one channel
+inline constexpr std::size_t kMaxCurvePoints = 8;         // of the response of one channel
 inline constexpr std::size_t kMaxSignals = 96;            // outputs of the expression mapping
 inline constexpr std::size_t kMaxExpressionInputs = 384;  // 3 x landmarks that a profile reads
 inline constexpr std::size_t kMaxMarkers = kMaxExpressionInputs / 3;

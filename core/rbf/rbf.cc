@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "core/rbf/lanes.h"
-#include "core/rbf/linear_solver.h"
+#include "core/rbf/system.h"
 
 namespace facewire::rbf {
 namespace {
@@ -28,10 +28,6 @@ std::span<float> MakeFloats(Arena& arena, std::size_t count) noexcept {
   return {first, count};
 }
 
-bool AllFinite(std::span<const float> values) noexcept {
-  return std::ranges::all_of(values, [](float v) { return std::isfinite(v); });
-}
-
 // Squared distances in units of 1 / epsilon, replaced by phi.
 void ApplyKernel(Kernel kernel, float* __restrict v, std::size_t n) noexcept {
   switch (kernel) {
@@ -50,107 +46,40 @@ void ApplyKernel(Kernel kernel, float* __restrict v, std::size_t n) noexcept {
     case Kernel::kCubic:
       for (std::size_t i = 0; i < n; ++i) v[i] *= std::sqrt(v[i]);
       return;
+    case Kernel::kThinPlate:
+      // The least float instead of 0, whose logarithm would make 0 * -inf.
+      for (std::size_t i = 0; i < n; ++i)
+        v[i] *= 0.5F * std::log(std::max(v[i], std::numeric_limits<float>::min()));
+      return;
   }
+}
+
+// See Fit.
+double BestEpsilon(const RbfConfig& config, double middle, System& system) noexcept {
+  double least = std::numeric_limits<double>::infinity();
+  double best = 0;  // exponent of two
+  const auto attempt = [&](double exponent) noexcept {
+    FitReport ignored;
+    if (!system.Solve(config, middle * std::exp2(exponent), ignored)) return;
+    const double rounding = system.ExpectedRounding();
+    const double error = system.LeaveOneOut({}) + rounding;
+    if (error >= least) return;
+    least = error;
+    best = exponent;
+  };
+  for (double exponent = -4; exponent <= 4; exponent += 2) attempt(exponent);
+  for (const double end : {-4.0, 4.0})
+    for (double next = 1.5 * end; best == next - end / 2 && std::abs(next) <= 8; next += end / 2)
+      attempt(next);
+  for (double step = 1; step >= 0.25; step /= 2) {
+    const double around = best;
+    attempt(around - step);
+    attempt(around + step);
+  }
+  return middle * std::exp2(best);
 }
 
 }  // namespace
-
-double Phi(Kernel kernel, double u_squared) noexcept {
-  switch (kernel) {
-    case Kernel::kMultiquadric:
-      return std::sqrt(1.0 + u_squared);
-    case Kernel::kInverseMultiquadric:
-      return 1.0 / std::sqrt(1.0 + u_squared);
-    case Kernel::kGaussian:
-      return std::exp(-u_squared);
-    case Kernel::kLinear:
-      return std::sqrt(u_squared);
-    case Kernel::kCubic:
-      return u_squared * std::sqrt(u_squared);
-  }
-  return 0;
-}
-
-// One linear system, in the workspace.
-struct Rbf::Problem {
-  RbfShape shape;
-  std::span<const float> samples, targets;
-  std::span<double> squared;  // samples x samples: squared distances
-  std::span<double> mean;     // inputs
-  std::span<double> matrix;   // size x size
-  std::span<double> weights;  // size x outputs
-  std::span<double> work;     // size
-  std::span<std::uint32_t> pivots;
-  LinearSolver solver;
-  float epsilon = 1;
-
-  std::size_t size() const noexcept { return pivots.size(); }
-
-  double Input(std::size_t sample, std::size_t i) const noexcept {
-    return samples[sample * shape.inputs + i] - mean[i];
-  }
-
-  void MeasureDistances() noexcept {
-    for (std::size_t i = 0; i < shape.inputs; ++i) {
-      double sum = 0;
-      for (std::size_t s = 0; s < shape.samples; ++s) sum += samples[s * shape.inputs + i];
-      mean[i] = sum / static_cast<double>(shape.samples);
-    }
-    for (std::size_t a = 0; a < shape.samples; ++a) {
-      for (std::size_t b = 0; b <= a; ++b) {
-        double sum = 0;
-        for (std::size_t i = 0; i < shape.inputs; ++i) {
-          const double d = static_cast<double>(samples[a * shape.inputs + i]) -
-                           static_cast<double>(samples[b * shape.inputs + i]);
-          sum += d * d;
-        }
-        squared[a * shape.samples + b] = squared[b * shape.samples + a] = sum;
-      }
-    }
-  }
-
-  double TailTerm(std::size_t sample, std::size_t column) const noexcept {
-    return column == 0 ? 1.0 : Input(sample, column - 1);
-  }
-
-  Result<> Solve(const RbfConfig& config) noexcept {
-    const std::size_t n = shape.samples;
-    const std::size_t m = size();
-    const double sign = SmoothingSign(config.kernel);
-    const double scale = static_cast<double>(epsilon) * epsilon;
-    for (std::size_t row = 0; row < n; ++row) {
-      for (std::size_t c = 0; c < n; ++c)
-        matrix[row * m + c] = Phi(config.kernel, scale * squared[row * n + c]);
-      matrix[row * m + row] += sign * config.smoothing;
-      for (std::size_t c = n; c < m; ++c)
-        matrix[row * m + c] = matrix[c * m + row] = TailTerm(row, c - n);
-    }
-    for (std::size_t row = n; row < m; ++row) {
-      for (std::size_t c = n; c < m; ++c) matrix[row * m + c] = 0;
-      // The constant is never damped: it only says where zero is.
-      if (row > n) matrix[row * m + row] = -sign * config.tail_smoothing;
-    }
-    if (auto factorised = solver.Factorise(matrix, pivots); !factorised) return factorised;
-    std::ranges::fill(weights, 0.0);
-    std::ranges::copy(targets, weights.begin());
-    solver.Solve(weights, shape.outputs);
-    return {};
-  }
-
-  // Sum of the squared leave-one-out errors; the errors themselves when `errors` is not empty.
-  double LeaveOneOut(std::span<float> errors) noexcept {
-    double sum = 0;
-    for (std::size_t s = 0; s < shape.samples; ++s) {
-      const double diagonal = solver.InverseDiagonal(s, work);
-      for (std::size_t o = 0; o < shape.outputs; ++o) {
-        const double error = weights[s * shape.outputs + o] / diagonal;
-        if (!errors.empty()) errors[s * shape.outputs + o] = static_cast<float>(error);
-        sum += error * error;
-      }
-    }
-    return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
-  }
-};
 
 std::size_t Rbf::RequiredBytes(const RbfShape& c) noexcept {
   const std::size_t floats =
@@ -159,10 +88,8 @@ std::size_t Rbf::RequiredBytes(const RbfShape& c) noexcept {
 }
 
 std::size_t Rbf::WorkspaceBytes(const RbfShape& s) noexcept {
-  const std::size_t size = s.samples + s.tail_size();
-  const std::size_t doubles =
-      s.samples * s.samples + s.inputs + size * size + size * s.outputs + size;
-  return doubles * sizeof(double) + size * sizeof(std::uint32_t) + 6 * alignof(double);
+  return System::WorkspaceBytes(s) + s.outputs * (sizeof(double) + sizeof(float)) +
+         2 * alignof(double);
 }
 
 Result<> Rbf::Reserve(const RbfShape& capacity, Arena& arena) noexcept {
@@ -188,112 +115,71 @@ Result<> Rbf::Fit(const RbfConfig& config, const RbfShape& shape, std::span<cons
   if (shape.samples > capacity_.samples || shape.inputs > capacity_.inputs ||
       shape.outputs > capacity_.outputs || shape.tail_size() > capacity_.tail_size())
     return Errc::kFull;
-  if (shape.samples == 0 || shape.inputs == 0 || shape.outputs == 0 || shape.tail != config.tail ||
-      samples.size() != shape.samples * shape.inputs ||
-      targets.size() != shape.samples * shape.outputs ||
-      (!leave_one_out.empty() && leave_one_out.size() != targets.size()) || !AllFinite(samples) ||
-      !AllFinite(targets) || !(config.epsilon >= 0 || config.epsilon == kMeanDistanceEpsilon) ||
-      !(config.smoothing >= 0) || !(config.tail_smoothing >= 0))
+  const bool names_a_choice =
+      config.epsilon == kAutomaticEpsilon || config.epsilon == kMeanDistanceEpsilon;
+  if (shape.tail != config.tail ||
+      (!leave_one_out.empty() && leave_one_out.size() != targets.size()) ||
+      !(config.epsilon > 0 || names_a_choice) || !(config.smoothing >= 0) ||
+      !(config.tail_smoothing >= 0))
     return Errc::kInvalidArgument;
-
   Arena arena(workspace);
-  const std::size_t size = shape.samples + shape.tail_size();
-  Problem problem{shape, samples, targets, {}, {}, {}, {}, {}, {}, {}, 1};
-  problem.squared = arena.MakeArray<double>(shape.samples * shape.samples);
-  problem.mean = arena.MakeArray<double>(shape.inputs);
-  problem.matrix = arena.MakeArray<double>(size * size);
-  problem.weights = arena.MakeArray<double>(size * shape.outputs);
-  problem.work = arena.MakeArray<double>(size);
-  problem.pivots = arena.MakeArray<std::uint32_t>(size);
-  if (problem.pivots.empty() || problem.work.empty() || problem.weights.empty() ||
-      problem.matrix.empty() || problem.mean.empty() || problem.squared.empty())
-    return Errc::kInvalidArgument;
-
-  problem.MeasureDistances();
-  if (config.smoothing == 0) {
-    // Relative to the spread of the samples; 1e-12 of a squared distance is 1e-6 of a distance,
-    // where float inputs stop telling samples apart.
-    const double spread = *std::ranges::max_element(problem.squared);
-    for (std::size_t a = 0; a < shape.samples; ++a) {
-      for (std::size_t b = 0; b < a; ++b) {
-        if (problem.squared[a * shape.samples + b] > 1e-12 * spread) continue;
-        report.duplicate_first = b;
-        report.duplicate_second = a;
-        return Errc::kSingular;
-      }
-    }
+  const auto exact = arena.MakeArray<double>(shape.outputs);
+  const auto rounded = arena.MakeArray<float>(shape.outputs);
+  System system;
+  if (auto configured = system.Configure(shape, samples, targets, workspace.subspan(arena.used()));
+      !configured)
+    return configured;
+  double epsilon = config.epsilon;
+  if (names_a_choice) {
+    const double middle = system.mean_distance() > 0 ? 1.0 / system.mean_distance() : 1.0;
+    epsilon = config.epsilon == kAutomaticEpsilon && HasShape(config.kernel)
+                  ? BestEpsilon(config, middle, system)
+                  : middle;
   }
-  problem.epsilon = config.epsilon;
-  if (config.epsilon <= 0) {
-    if (auto chosen = ChooseEpsilon(config, problem); !chosen) return chosen;
+  // As Evaluate will see it.
+  epsilon = static_cast<float>(epsilon);
+  if (auto solved = system.Solve(config, epsilon, report); !solved) return solved;
+  Store(system, config.kernel);
+  if (!AgreesAtSamples(system, exact, rounded)) {
+    shape_ = {};
+    system.Blame(report);
+    return Errc::kSingular;
   }
-  report.epsilon = problem.epsilon;
-  if (auto solved = problem.Solve(config); !solved) {
-    const std::size_t column = problem.solver.dependent_column();
-    if (column < shape.samples) {
-      report.dependent_sample = column;
-    } else {
-      report.tail_undetermined = true;
-    }
-    return solved;
-  }
-  if (!leave_one_out.empty()) problem.LeaveOneOut(leave_one_out);
-  kernel_ = config.kernel;
-  Store(problem);
+  if (!leave_one_out.empty()) system.LeaveOneOut(leave_one_out);
   return {};
 }
 
-// Scans two decades around the reciprocal of the mean distance, then halves the step around the
-// best. Shapes whose system is singular count as infinitely bad.
-Result<> Rbf::ChooseEpsilon(const RbfConfig& config, Problem& problem) const noexcept {
-  const auto pairs = static_cast<double>(problem.squared.size());
-  double sum = 0;
-  for (const double squared : problem.squared) sum += std::sqrt(squared);
-  const double base = sum > 0 ? pairs / sum : 1.0;
-  problem.epsilon = static_cast<float>(base);
-  if (!HasShape(config.kernel) || config.epsilon == kMeanDistanceEpsilon) return {};
-
-  double best = std::numeric_limits<double>::infinity();
-  double best_exponent = 0;
-  const auto attempt = [&](double exponent) noexcept {
-    problem.epsilon = static_cast<float>(base * std::exp2(exponent));
-    if (!problem.Solve(config)) return;
-    const double error = problem.LeaveOneOut({});
-    if (error >= best) return;
-    best = error;
-    best_exponent = exponent;
-  };
-  for (int exponent = -4; exponent <= 4; ++exponent) attempt(exponent);
-  for (double step = 0.5; step > 0.1; step /= 2) {
-    const double middle = best_exponent;
-    attempt(middle - step);
-    attempt(middle + step);
+bool Rbf::AgreesAtSamples(const System& system, std::span<double> exact,
+                          std::span<float> rounded) const noexcept {
+  for (std::size_t s = 0; s < shape_.samples; ++s) {
+    system.Evaluate(system.sample(s), exact);
+    Evaluate(system.sample(s), rounded);
+    for (std::size_t o = 0; o < shape_.outputs; ++o)
+      if (!(std::abs(exact[o] - rounded[o]) <= kMaxRounding * system.largest_target(o)))
+        return false;
   }
-  problem.epsilon = static_cast<float>(base * std::exp2(best_exponent));
-  return {};
+  return true;
 }
 
-void Rbf::Store(const Problem& problem) noexcept {
-  shape_ = problem.shape;
-  epsilon_ = problem.epsilon;
+void Rbf::Store(const System& system, Kernel kernel) noexcept {
+  shape_ = system.shape();
+  kernel_ = kernel;
+  epsilon_ = static_cast<float>(system.epsilon());
   tail_at_ = Padded(shape_.samples);
   stride_ = Stride(shape_);
   std::ranges::fill(centres_, 0.0F);
   std::ranges::fill(weights_, 0.0F);
   for (std::size_t i = 0; i < shape_.inputs; ++i) {
-    origin_[i] = static_cast<float>(problem.mean[i]);
+    origin_[i] = static_cast<float>(system.mean(i));
     for (std::size_t s = 0; s < shape_.samples; ++s)
       centres_[(s / kBlock * shape_.inputs + i) * kBlock + s % kBlock] =
-          static_cast<float>(epsilon_ * problem.Input(s, i));
+          static_cast<float>(epsilon_ * (system.sample(s)[i] - system.mean(i)));
   }
-  for (std::size_t row = 0; row < problem.size(); ++row) {
+  for (std::size_t row = 0; row < system.size(); ++row) {
     const bool is_tail = row >= shape_.samples;
     const std::size_t at = is_tail ? tail_at_ + row - shape_.samples : row;
-    // Evaluate works in units of 1 / epsilon; the tail's linear columns are brought there too.
-    const double scale = row > shape_.samples ? 1.0 / epsilon_ : 1.0;
     for (std::size_t o = 0; o < shape_.outputs; ++o)
-      weights_[o * stride_ + at] =
-          static_cast<float>(scale * problem.weights[row * shape_.outputs + o]);
+      weights_[o * stride_ + at] = static_cast<float>(system.weight(row, o));
   }
 }
 

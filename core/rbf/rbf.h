@@ -3,60 +3,21 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 
 #include "core/base/arena.h"
 #include "core/base/result.h"
-#include "core/rbf/kernel.h"
+#include "core/rbf/config.h"
 
 namespace facewire::rbf {
 
-// Value of RbfConfig::epsilon that stands for 1 / mean distance between two samples.
-inline constexpr float kMeanDistanceEpsilon = -1;
-
-struct RbfConfig {
-  Kernel kernel = Kernel::kMultiquadric;
-  Tail tail = Tail::kNone;  // the paper's equation 1 has none
-  // Shape of the kernel, 1 / unit of the inputs: small = broad and smooth, large = local. 0 =
-  // choose the one with the least leave-one-out error.
-  float epsilon = 0;
-  // 0 = through every sample exactly. Larger = flatter and less sensitive to noise in the samples;
-  // in units of phi, added to the diagonal of H with the kernel's sign.
-  float smoothing = 0;
-  // The same for the tail: with 0 the tail is fitted freely, which needs samples in general
-  // position and more of them than inputs.
-  float tail_smoothing = 0;
-};
-
-// Numbers of samples, inputs of the function and outputs.
-struct RbfShape {
-  std::size_t samples = 0, inputs = 0, outputs = 0;
-  Tail tail = Tail::kNone;
-  // Columns of the polynomial tail.
-  constexpr std::size_t tail_size() const noexcept {
-    return tail == Tail::kNone ? 0 : tail == Tail::kConstant ? 1 : inputs + 1;
-  }
-};
-
-// What Fit found, and why it failed.
-struct FitReport {
-  float epsilon = 0;  // the one used
-  // Two samples with the same inputs (only an error without smoothing).
-  std::optional<std::size_t> duplicate_first, duplicate_second;
-  // A sample whose row of the system depends on those of the samples before it.
-  std::optional<std::size_t> dependent_sample;
-  // The samples do not determine the tail: too few, or all in one plane.
-  bool tail_undetermined = false;
-};
+class System;
 
 // A vector-valued function from scattered samples, the paper's equations 1 and 2:
 //     y(x) = sum_i w_i phi(|x - x_i|) + tail(x),    H W = T,  H_ij = phi(|x_j - x_i|)
-// with smoothing s and tail polynomials P (1, or 1 and the inputs):
-//     [ H + sign s I   P         ] [W]   [T]
-//     [ P'             -sign t I ] [C] = [0]       sign = SmoothingSign(kernel), t = tail_smoothing
-// All outputs share one factorisation. Fit is for load time (double, O(n^3)); Evaluate is for every
-// frame (float, no allocation). Memory is borrowed from an arena once.
+// with smoothing and a polynomial tail (see System, which solves it in double precision). All
+// outputs share one factorisation. Fit is for load time (O(n^3)); Evaluate is for every frame
+// (float, no allocation). Memory is borrowed from an arena once.
 class Rbf {
  public:
   // Bytes of arena that Reserve needs for at most this shape.
@@ -69,13 +30,25 @@ class Rbf {
 
   // `samples`: shape.samples x shape.inputs by rows; `targets`: shape.samples x shape.outputs by
   // rows. `leave_one_out`: empty, or samples x outputs: target minus what the other samples predict
-  // there, by Rippa's formula w_k / inverse(A)_kk (Advances in Computational Mathematics 11, 1999).
-  // kFull: shape exceeds the capacity. kInvalidArgument: sizes that contradict the shape, values
-  // that are not finite, a workspace that is too small, negative numbers in the config. kSingular:
-  // `report` says which samples are to blame. After an error the function is zero.
+  // there (System::LeaveOneOut). kFull: shape exceeds the capacity. kInvalidArgument: sizes that
+  // contradict the shape, values that are not finite, a workspace that is too small, negative
+  // numbers in the config other than its named ones. kSingular: the samples do not determine the
+  // function, or so badly that rounding would show (more than kMaxRounding); `report` says which
+  // samples are to blame. After an error the function is zero.
+  //
+  // kAutomaticEpsilon minimises the sum of squared leave-one-out errors plus what float would add
+  // to them. It looks at 1 / mean distance times 1/16, 1/4, 1, 4 and 16, walks on while an end is
+  // best (to 1/256 or 256 at most), then halves the step around the best three times, to a factor
+  // of 1.2. What is singular or ill-conditioned is out, at the ends too; if nothing is left, the
+  // error is that of 1 / mean distance. Kernels without a shape take 1 / mean distance, as
+  // kMeanDistanceEpsilon does for all; 1 per unit if there is no distance.
   Result<> Fit(const RbfConfig& config, const RbfShape& shape, std::span<const float> samples,
                std::span<const float> targets, std::span<std::byte> workspace, FitReport& report,
                std::span<float> leave_one_out = {}) noexcept;
+
+  // How far Evaluate may be from the solution in double precision at any sample, as a part of the
+  // largest target of that output.
+  static constexpr double kMaxRounding = 1e-3;
 
   // `x`: inputs; `y`: outputs, overwritten; `squared_distances`: empty, or one per sample: from x,
   // in squared units of the inputs. Not reentrant: distances lie in the object's own memory.
@@ -86,9 +59,9 @@ class Rbf {
   float epsilon() const noexcept { return epsilon_; }
 
  private:
-  struct Problem;
-  Result<> ChooseEpsilon(const RbfConfig& config, Problem& problem) const noexcept;
-  void Store(const Problem& problem) noexcept;
+  void Store(const System& system, Kernel kernel) noexcept;
+  bool AgreesAtSamples(const System& system, std::span<double> exact,
+                       std::span<float> rounded) const noexcept;
 
   RbfShape capacity_;
   RbfShape shape_;  // of the last Fit; samples == 0: none

@@ -66,6 +66,12 @@ float Ratio(float target, float source, float otherwise) noexcept {
   return target > kLeastDistance && source > kLeastDistance ? target / source : otherwise;
 }
 
+// One axis may differ from the whole by a factor; by more, the two distances are an accident.
+float Believable(float ratio, float overall) noexcept {
+  constexpr float kMost = 4;
+  return ratio > overall / kMost && ratio < overall * kMost ? ratio : overall;
+}
+
 }  // namespace
 
 Result<Alignment> Align(std::span<const Point3> source, std::span<const Point3> target,
@@ -79,10 +85,14 @@ Result<Alignment> Align(std::span<const Point3> source, std::span<const Point3> 
   const float spread = Spread(source, out.source_mean);
   if (source.size() > 1 && spread < kLeastDistance) return Errc::kSingular;
   const float overall = Ratio(Spread(target, out.target_mean), spread, 1.0F);
-  out.scale.x = Ratio(Between(target, landmarks, kRightEye, kLeftEye, &Point3::x),
-                      Between(source, landmarks, kRightEye, kLeftEye, &Point3::x), overall);
-  out.scale.y = Ratio(Between(target, landmarks, kBrows, kChin, &Point3::y),
-                      Between(source, landmarks, kBrows, kChin, &Point3::y), overall);
+  const auto along = [&](std::span<const std::int16_t> from, std::span<const std::int16_t> to,
+                         float Point3::*axis) {
+    return Believable(Ratio(Between(target, landmarks, from, to, axis),
+                            Between(source, landmarks, from, to, axis), overall),
+                      overall);
+  };
+  out.scale.x = along(kRightEye, kLeftEye, &Point3::x);
+  out.scale.y = along(kBrows, kChin, &Point3::y);
   out.scale.z = std::sqrt(out.scale.x * out.scale.y);
   return out;
 }

@@ -1,16 +1,21 @@
 #include "core/retarget/geometry_mapping.h"
 
 #include <array>
+#include <cmath>
 
 namespace facewire::retarget {
 namespace {
 
-constexpr rbf::RbfConfig kConfig = {.kernel = rbf::Kernel::kMultiquadric,
-                                    .tail = rbf::Tail::kLinear,
-                                    .epsilon = 1.0F,  // per cm
-                                    .smoothing = 0.01F,
-                                    // Damped, so that four points or fewer are enough.
-                                    .tail_smoothing = 0.1F};
+constexpr rbf::RbfConfig kConfig = {
+    .kernel = rbf::Kernel::kMultiquadric,
+    .tail = rbf::Tail::kLinear,
+    .epsilon = 0.4F,  // per cm: a radius of 2.5 cm, more than twice the points' distance
+    // Little enough for lids to close on lids also where the target's eyes are larger; enough for
+    // touching lips, of which the target's stand 3 mm apart.
+    .smoothing = 0.001F,
+    // Next to nothing, so that a different scale along any axis is followed exactly; enough that
+    // four points or fewer, or all in one plane, can be solved.
+    .tail_smoothing = 0.01F};
 
 constexpr rbf::RbfShape Shape(std::size_t points) noexcept {
   return {.samples = points, .inputs = 3, .outputs = 3, .tail = kConfig.tail};
@@ -54,6 +59,17 @@ Result<> GeometryMapping::Solve(std::span<const Point3> source, std::span<const 
   rbf::FitReport report;
   return residual_.Fit(kConfig, Shape(n), samples_.first(3 * n), targets_.first(3 * n), workspace,
                        report);
+}
+
+Point3 GeometryMapping::Motion(const Anchor& anchor, Point3 p) const noexcept {
+  const Point3 aligned = alignment_.Motion(p - anchor.source);
+  Point3 motion = Map(p) - anchor.target;
+  const float square = Dot(aligned, aligned);
+  const float along = Dot(motion, aligned);
+  if (along < 0) motion = motion - (along / square) * aligned;
+  const float allowed = kMaxStretch * kMaxStretch * square;
+  const float length = Dot(motion, motion);
+  return length > allowed ? std::sqrt(allowed / length) * motion : motion;
 }
 
 Point3 GeometryMapping::Map(Point3 p) const noexcept {

@@ -17,10 +17,8 @@ namespace facewire::retarget {
 // takes one face's neutral points to another's. Motion is mapped as f(point) - f(neutral point), so
 // a neutral face gives exactly no motion, whatever the smoothing.
 //
-// f = alignment + RBF of what the alignment leaves over. The kernel's radius is 1 cm: about the
-// width of a lid or a lip, so that a lid that travels to the other lid's place lands on the other
-// lid of the target, while a radius near the points' mean distance overshoots between them.
-// Smoothing keeps points that nearly touch in neutral (the lips) from tearing space apart.
+// f = alignment + RBF of what the alignment leaves over. The README says how the radius, the
+// smoothing and the tail were chosen, and with which figures.
 class GeometryMapping {
  public:
   static std::size_t RequiredBytes(std::size_t max_points) noexcept;
@@ -34,10 +32,24 @@ class GeometryMapping {
   Result<> Solve(std::span<const Point3> source, std::span<const Point3> target,
                  std::span<const std::int16_t> landmarks, std::span<std::byte> workspace) noexcept;
 
-  // f(p), in the target's space, cm. Only after Solve. Not reentrant.
-  Point3 Map(Point3 p) const noexcept;
+  // Where a point is in neutral, in both spaces, cm.
+  struct Anchor {
+    Point3 source, target;
+  };
+  // The anchor of a point of the source space. Only after Solve. Not reentrant, as Motion.
+  Anchor AnchorAt(Point3 neutral) const noexcept { return {neutral, Map(neutral)}; }
+
+  // How far from its anchor the point is in the target's space when it is at `p` in the source's,
+  // cm. Never more than kMaxStretch times as far as the alignment alone would take it, and never
+  // against that direction: where f stretches more or folds, its samples contradict each other
+  // (touching lips of which the target's stand apart, bones in the wrong order) and it says nothing
+  // about motion. Not finite when `p` is not, or is too far away for a float.
+  static constexpr float kMaxStretch = 4;
+  Point3 Motion(const Anchor& anchor, Point3 p) const noexcept;
 
  private:
+  Point3 Map(Point3 p) const noexcept;  // f
+
   Alignment alignment_;
   rbf::Rbf residual_;
   std::span<float> samples_, targets_;  // 3 per point, for Solve

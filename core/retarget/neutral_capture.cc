@@ -2,17 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
 namespace facewire::retarget {
 namespace {
 
-float Median(std::span<float> values) noexcept {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+// The value that `part` (0..1) of all do not exceed.
+float Quantile(std::span<float> values, float part) noexcept {
+  const auto rank = static_cast<std::size_t>(part * static_cast<float>(values.size()));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::min(rank, values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
+float Median(std::span<float> values) noexcept { return Quantile(values, 0.5F); }
+
+float Distance(Point3 a, Point3 b) noexcept { return std::sqrt(Dot(a - b, a - b)); }
 
 // Angle of the rotation between two attitudes: trace(A' B) = 1 + 2 cos.
 float AngleBetween(const Matrix3& a, const Matrix3& b) noexcept {
@@ -31,16 +37,27 @@ bool IsFinite(const FacePose& face) noexcept {
          std::ranges::all_of(std::span(face.points_cm).first(face.count), finite);
 }
 
-// A mouth that stands open is nobody's face at rest, and as a neutral it would make closed lips the
-// opposite of open ones. Gap of the inner lips over the mouth's width; only in the face mesh's
-// order.
-constexpr float kOpenMouth = 0.2F;
+// In the face mesh's order.
+struct Eye {
+  std::size_t upper, lower, outer, inner;
+};
+constexpr std::array<Eye, 2> kEyes = {{{159, 145, 33, 133}, {386, 374, 263, 362}}};
+// Lids less than this part of the eye's width apart are closed; the tracker shows 0.04 to 0.1 then.
+constexpr float kClosedEye = 0.1F;
 
-bool MouthStandsOpen(const Neutral& neutral) noexcept {
-  if (neutral.count < kMeshLandmarks) return false;
-  const Point3 gap = neutral.points_cm[13] - neutral.points_cm[14];
-  const Point3 width = neutral.points_cm[308] - neutral.points_cm[78];
-  return Dot(gap, gap) > kOpenMouth * kOpenMouth * Dot(width, width);
+// A mouth that stands open is nobody's face at rest, and as a neutral it would make closed lips the
+// opposite of open ones. Gap of the inner lips over the mouth's width.
+float MouthGap(const Neutral& neutral) noexcept {
+  if (neutral.count < kMeshLandmarks) return 0;
+  const float width = Distance(neutral.points_cm[308], neutral.points_cm[78]);
+  return width > 0 ? Distance(neutral.points_cm[13], neutral.points_cm[14]) / width : 0;
+}
+
+bool IsUsable(const NeutralCaptureConfig& c) noexcept {
+  return c.min_frames > 0 && c.min_frames <= kMaxNeutralFrames / 2 &&
+         c.duration >= Duration::zero() && c.still_part >= 0 && c.still_part <= 1 &&
+         c.max_turn_deg > 0 && c.max_shift_cm > 0 && c.max_stray_cm > 0 && c.max_closing > 0 &&
+         c.max_mouth_gap > 0;
 }
 
 }  // namespace
@@ -51,14 +68,17 @@ std::size_t NeutralCapture::RequiredBytes() noexcept {
 }
 
 Result<> NeutralCapture::Configure(const NeutralCaptureConfig& config, Arena& arena) noexcept {
-  if (config.min_frames == 0 || config.min_frames > kMaxNeutralFrames / 2 ||
-      config.duration < Duration::zero() || !(config.max_stray_cm > 0) ||
-      !(config.max_turn_deg > 0))
-    return Errc::kOutOfRange;
-  config_ = config;
+  if (!IsUsable(config)) return Errc::kOutOfRange;
   shots_ = arena.MakeArray<Shot>(kMaxNeutralFrames);
   scratch_ = arena.MakeArray<float>(std::max(kMaxNeutralFrames, kMaxLandmarks));
   if (shots_.empty() || scratch_.empty()) return Errc::kFull;
+  return Use(config);
+}
+
+Result<> NeutralCapture::Use(const NeutralCaptureConfig& config) noexcept {
+  if (!IsUsable(config)) return Errc::kOutOfRange;
+  config_ = config;
+  unrest_ = {};
   Reset();
   return {};
 }
@@ -68,6 +88,15 @@ void NeutralCapture::Reset() noexcept {
   points_ = 0;
   every_ = 1;
   skipped_ = 0;
+}
+
+void NeutralCapture::Slide() noexcept {
+  if (count_ == 0) return;
+  const Time from = shots_[count_ - 1].captured - config_.duration / 2;
+  const auto kept = shots_.first(count_);
+  const auto first = std::ranges::find_if(kept, [&](const Shot& s) { return s.captured >= from; });
+  std::move(first, kept.end(), kept.begin());
+  count_ = static_cast<std::size_t>(kept.end() - first);
 }
 
 void NeutralCapture::Add(const FacePose& face) noexcept {
@@ -141,48 +170,91 @@ float NeutralCapture::MedianOf(float Point3::*axis, std::size_t point) noexcept 
 }
 
 float NeutralCapture::StrayOf(std::size_t point, Point3 median) noexcept {
-  for (std::size_t i = 0; i < count_; ++i) {
-    const Point3 d = shots_[i].points_cm[point] - median;
-    scratch_[i] = std::sqrt(Dot(d, d));
-  }
-  return Median(scratch_.first(count_));
+  for (std::size_t i = 0; i < count_; ++i)
+    scratch_[i] = Distance(shots_[i].points_cm[point], median);
+  return Quantile(scratch_.first(count_), config_.still_part);
 }
 
-// The shot whose attitude has the least median angle to all others; a median for rotations.
+// How far a tenth of the points stray, or further.
+float NeutralCapture::StrayOfATenth(const Neutral& neutral) noexcept {
+  std::array<float, kMaxLandmarks> strays{};
+  for (std::size_t p = 0; p < points_; ++p) strays[p] = StrayOf(p, neutral.points_cm[p]);
+  const auto tenth = strays.begin() + static_cast<std::ptrdiff_t>(points_ / 10);
+  std::nth_element(strays.begin(), tenth, strays.begin() + static_cast<std::ptrdiff_t>(points_),
+                   std::greater<>());
+  return *tenth;
+}
+
+float NeutralCapture::ShiftFrom(Point3 median) noexcept {
+  for (std::size_t i = 0; i < count_; ++i)
+    scratch_[i] = Distance(shots_[i].camera_t_head_cm, median);
+  return Quantile(scratch_.first(count_), config_.still_part);
+}
+
+// How far the eye opened and closed, 0..1, against its own median: a blink shows in both directions
+// when it takes more than half of the window.
+float NeutralCapture::ClosingOf(std::size_t which) noexcept {
+  if (points_ < kMeshLandmarks) return 0;
+  const Eye& eye = kEyes[which];
+  for (std::size_t i = 0; i < count_; ++i) {
+    const auto& p = shots_[i].points_cm;
+    const float width = Distance(p[eye.outer], p[eye.inner]);
+    scratch_[i] = width > 0 ? Distance(p[eye.upper], p[eye.lower]) / width : 0;
+  }
+  const auto openings = scratch_.first(count_);
+  const float usual = Median(openings);
+  if (usual < kClosedEye) return 1;
+  const float least = Quantile(openings, 1 - config_.still_part);
+  const float most = Quantile(openings, config_.still_part);
+  return 1 - std::min(least / usual, usual / most);
+}
+
+// The shot whose attitude has the least typical angle to all others; a median for rotations.
 std::size_t NeutralCapture::MedianAttitude(float& turn_deg) noexcept {
   std::size_t best = 0;
   turn_deg = 360;
   for (std::size_t i = 0; i < count_; ++i) {
     for (std::size_t j = 0; j < count_; ++j)
       scratch_[j] = AngleBetween(shots_[i].camera_R_head, shots_[j].camera_R_head);
-    const float median = Median(scratch_.first(count_));
-    if (median >= turn_deg) continue;
-    turn_deg = median;
+    const float turn = Quantile(scratch_.first(count_), config_.still_part);
+    if (turn >= turn_deg) continue;
+    turn_deg = turn;
     best = i;
   }
   return best;
 }
 
+bool NeutralCapture::Exceeds(Unrest::Kind kind, float measure, float limit) noexcept {
+  if (measure <= limit) return false;
+  unrest_ = {.kind = kind, .measure = measure};
+  return true;
+}
+
 Result<Neutral> NeutralCapture::Finish() noexcept {
   if (progress() < 1) return Errc::kNotReady;
-  ChooseAlike();
+  using Kind = Unrest::Kind;
+  unrest_ = {};
   Neutral neutral;
   neutral.count = points_;
-  for (std::size_t p = 0; p < points_; ++p)
-    neutral.points_cm[p] = {MedianOf(&Point3::x, p), MedianOf(&Point3::y, p),
-                            MedianOf(&Point3::z, p)};
-  std::size_t moving = 0;
-  for (std::size_t p = 0; p < points_; ++p)
-    if (StrayOf(p, neutral.points_cm[p]) > config_.max_stray_cm) ++moving;
   float turn_deg = 0;
-  const std::size_t attitude = MedianAttitude(turn_deg);
-  if (10 * moving > points_ || turn_deg > config_.max_turn_deg || MouthStandsOpen(neutral))
-    return Errc::kRejected;
-  neutral.camera_R_head = shots_[attitude].camera_R_head;
+  neutral.camera_R_head = shots_[MedianAttitude(turn_deg)].camera_R_head;
   for (float Point3::*axis : {&Point3::x, &Point3::y, &Point3::z}) {
     for (std::size_t i = 0; i < count_; ++i) scratch_[i] = shots_[i].camera_t_head_cm.*axis;
     neutral.camera_t_head_cm.*axis = Median(scratch_.first(count_));
   }
+  if (Exceeds(Kind::kHeadTurned, turn_deg, config_.max_turn_deg) ||
+      Exceeds(Kind::kHeadMoved, ShiftFrom(neutral.camera_t_head_cm), config_.max_shift_cm))
+    return Errc::kRejected;
+  for (std::size_t eye = 0; eye < kEyes.size(); ++eye)
+    if (Exceeds(Kind::kEyesClosed, ClosingOf(eye), config_.max_closing)) return Errc::kRejected;
+
+  ChooseAlike();
+  for (std::size_t p = 0; p < points_; ++p)
+    neutral.points_cm[p] = {MedianOf(&Point3::x, p), MedianOf(&Point3::y, p),
+                            MedianOf(&Point3::z, p)};
+  if (Exceeds(Kind::kFaceMoved, StrayOfATenth(neutral), config_.max_stray_cm) ||
+      Exceeds(Kind::kMouthOpen, MouthGap(neutral), config_.max_mouth_gap))
+    return Errc::kRejected;
   return neutral;
 }
 

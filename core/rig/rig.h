@@ -9,6 +9,7 @@
 #include "core/base/geometry.h"
 #include "core/base/inline_vector.h"
 #include "core/base/name.h"
+#include "core/rig/response.h"
 #include "core/rig_pose.h"
 
 namespace facewire {
@@ -37,19 +38,30 @@ struct Drive {
   float gain = 1;
 };
 
-// One number that the host receives. Position channels without drives follow the geometry mapping
-// of their bone; every other channel is neutral + the sum of its drives.
+// One number that the host receives: neutral + curve(gain * sum + bias), on soft knees towards its
+// limits. The sum is that of its drives; for a position channel without drives, how far the
+// geometry mapping moves its bone.
 struct Channel {
   ShortName name;  // of the parameter ("jawOpen"), or "bone.axis" ("jaw.pitch")
   ChannelKind kind = ChannelKind::kParameter;
   std::int16_t bone = -1;  // index into Rig::bones; -1 for a parameter
-  // The value with a neutral face; min <= neutral <= max.
+  // Where the channel rests when no face drives it; min <= neutral <= max. A neutral face gives
+  // neutral + curve(bias).
   float neutral = 0;
   float min = 0;
   float max = 1;
+  // Half the width of the soft knee at each limit, as a part of max - min, 0 to 0.5; 0 = none. A
+  // knee never reaches beyond neutral, so what is at rest stays where it is.
+  float knee = 0;
   float max_speed_per_s = 0;          // in the channel's unit; 0 = unlimited
   float max_acceleration_per_s2 = 0;  // 0 = unlimited
   InlineVector<Drive, kMaxDrives> drives;
+  Response response;
+
+  // The value for a sum; monotone and continuous in it, finite for every finite sum. With a knee it
+  // never leaves min to max; without one that is left to core/limit. A sum that is not finite gives
+  // neutral.
+  float ValueOf(float sum) const noexcept;
 };
 
 // A bone of the character. A bone with a landmark is a sample of the geometry mapping: the

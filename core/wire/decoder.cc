@@ -137,6 +137,7 @@ Acknowledgement ReadAcknowledgement(Reader& r) noexcept {
   m.code = static_cast<CommandCode>(r.Integer<std::uint8_t>());
   m.result = static_cast<CommandResult>(r.Integer<std::uint8_t>());
   m.now = r.Instant();
+  if (HasMeasure(m.result)) m.measure = r.Float();
   return m;
 }
 
@@ -144,6 +145,7 @@ Command ReadCommand(Reader& r) noexcept {
   Command m;
   m.id = r.Integer<std::uint16_t>();
   m.code = static_cast<CommandCode>(r.Integer<std::uint8_t>());
+  if (TakesValue(m.code)) m.value = r.Float();
   return m;
 }
 

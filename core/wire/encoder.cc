@@ -175,6 +175,7 @@ Result<std::span<const byte>> Encoder::Encode(const Acknowledgement& m,
   w.Integer(static_cast<std::uint8_t>(m.code));
   w.Integer(static_cast<std::uint8_t>(m.result));
   w.Integer(m.now.time_since_epoch().count());
+  if (HasMeasure(m.result)) w.Float(m.measure);
   return Finish(w);
 }
 
@@ -182,6 +183,7 @@ Result<std::span<const byte>> Encoder::Encode(const Command& m, std::span<byte> 
   Writer w(out, MessageType::kCommand, sequence_);
   w.Integer(m.id);
   w.Integer(static_cast<std::uint8_t>(m.code));
+  if (TakesValue(m.code)) w.Float(m.value);
   return Finish(w);
 }
 

@@ -16,6 +16,8 @@ const char* Name(CommandCode code) noexcept {
       return "stop";
     case CommandCode::kRelease:
       return "release";
+    case CommandCode::kBlendProfile:
+      return "blend_profile";
   }
   return "unknown";
 }
@@ -32,6 +34,16 @@ const char* Name(CommandResult result) noexcept {
       return "no_face";
     case CommandResult::kFailed:
       return "failed";
+    case CommandResult::kHeadTurned:
+      return "head_turned";
+    case CommandResult::kHeadMoved:
+      return "head_moved";
+    case CommandResult::kFaceMoved:
+      return "face_moved";
+    case CommandResult::kEyesClosed:
+      return "eyes_closed";
+    case CommandResult::kMouthOpen:
+      return "mouth_open";
   }
   return "failed";
 }

@@ -91,12 +91,15 @@ enum class CommandCode : std::uint8_t {
   kRest = 4,              // ease to neutral and stay there until kRelease
   kStop = 5,              // emergency stop, latched until kRelease
   kRelease = 6,           // end a stop or a rest that a command began
+  kBlendProfile = 7,      // value: the part of the personal profile, 0..1
 };
 
 struct Command {
   std::uint16_t id = 0;  // the host's own number, repeated in the acknowledgement
   CommandCode code = CommandCode::kPing;
+  float value = 0;  // on the wire only where TakesValue(code)
 };
+constexpr bool TakesValue(CommandCode code) noexcept { return code == CommandCode::kBlendProfile; }
 
 // The numbers are those of the wire: append only; everything but kOk is a failure.
 enum class CommandResult : std::uint8_t {
@@ -105,13 +108,24 @@ enum class CommandResult : std::uint8_t {
   kRefused = 2,  // not in this state: a release while the stop input is still asserted
   kNoFace = 3,   // calibration needs a face
   kFailed = 4,   // tried, and something went wrong
+  // Why a calibration was refused; `measure` of the acknowledgement says how much. All of them look
+  // at one second.
+  kHeadTurned = 5,  // degrees
+  kHeadMoved = 6,   // cm
+  kFaceMoved = 7,   // cm
+  kEyesClosed = 8,  // a blink, or throughout; how far they closed, 0..1
+  kMouthOpen = 9,   // the lips' gap as a part of the mouth's width
 };
+constexpr bool HasMeasure(CommandResult result) noexcept {
+  return result >= CommandResult::kHeadTurned && result <= CommandResult::kMouthOpen;
+}
 
 struct Acknowledgement {
   std::uint16_t id = 0;                   // of the command
   CommandCode code = CommandCode::kPing;  // of the command
   CommandResult result = CommandResult::kOk;
-  Time now{};  // the device's clock: with a ping, a host learns the offset to its own
+  Time now{};         // the device's clock: with a ping, a host learns the offset to its own
+  float measure = 0;  // on the wire only where HasMeasure(result)
 };
 
 using Message = std::variant<RigHeader, BoneDescription, ChannelDescription, Pose, Status,
@@ -135,15 +149,16 @@ constexpr std::size_t MaxFrameBytes(std::size_t payload_bytes) noexcept {
 constexpr std::size_t PosePayloadBytes(std::size_t channels) noexcept { return 22 + 2 * channels; }
 inline constexpr std::size_t kMaxDescriptionPayloadBytes = 4 + 1 + 1 + 1 + 12 + 1 + kMaxNameLength;
 inline constexpr std::size_t kStatusPayloadBytes = 43;
-inline constexpr std::size_t kAcknowledgementPayloadBytes = 12;
-inline constexpr std::size_t kCommandPayloadBytes = 3;
+// With the value or measure that some have.
+inline constexpr std::size_t kMaxAcknowledgementPayloadBytes = 12 + 4;
+inline constexpr std::size_t kMaxCommandPayloadBytes = 3 + 4;
 // Buffers of these sizes always suffice for the message.
 inline constexpr std::size_t kMaxDescriptionFrameBytes = MaxFrameBytes(kMaxDescriptionPayloadBytes);
 inline constexpr std::size_t kMaxPoseFrameBytes = MaxFrameBytes(PosePayloadBytes(kMaxChannels));
 inline constexpr std::size_t kStatusFrameBytes = MaxFrameBytes(kStatusPayloadBytes);
 inline constexpr std::size_t kAcknowledgementFrameBytes =
-    MaxFrameBytes(kAcknowledgementPayloadBytes);
-inline constexpr std::size_t kCommandFrameBytes = MaxFrameBytes(kCommandPayloadBytes);
+    MaxFrameBytes(kMaxAcknowledgementPayloadBytes);
+inline constexpr std::size_t kCommandFrameBytes = MaxFrameBytes(kMaxCommandPayloadBytes);
 inline constexpr std::size_t kMaxFrameBytes = MaxFrameBytes(kMaxPayloadBytes);  // of any message
 static_assert(PosePayloadBytes(kMaxChannels) <= kMaxPayloadBytes);
 

@@ -2,19 +2,26 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <span>
 #include <vector>
 
 namespace facewire::app {
 namespace {
 
+retarget::NeutralCapture OfOneSecond(std::span<std::byte> memory) {
+  Arena arena(memory);
+  retarget::NeutralCapture capture;
+  retarget::NeutralCaptureConfig config;
+  config.duration = std::chrono::seconds(1);
+  EXPECT_TRUE(capture.Configure(config, arena));
+  return capture;
+}
+
 // A capture of one second, fed with a face whose lips are `gap_cm` apart, 30 times a second.
 class Context {
  public:
-  Context() : memory(retarget::NeutralCapture::RequiredBytes()) {
-    Arena arena(memory);
-    retarget::NeutralCaptureConfig config;
-    config.duration = std::chrono::seconds(1);
-    EXPECT_TRUE(capture.Configure(config, arena));
+  Context() {
     face.count = kMaxLandmarks;
     for (std::size_t i = 0; i < face.count; ++i) {
       face.points_cm[i] = {static_cast<float>(i % 16), static_cast<float>(i / 16), 0};
@@ -28,13 +35,13 @@ class Context {
     face.points_cm[14] = {0, -4 - gap_cm, 5};
     for (int i = 0; i < frames; ++i) {
       face.captured += std::chrono::milliseconds(33);
-      if (calibration.Update(seen ? &face : nullptr, outcome)) return true;
+      if (calibration.Update(face.captured, seen ? &face : nullptr, outcome)) return true;
     }
     return false;
   }
 
-  std::vector<std::byte> memory;
-  retarget::NeutralCapture capture;
+  std::vector<std::byte> memory = std::vector<std::byte>(retarget::NeutralCapture::RequiredBytes());
+  retarget::NeutralCapture capture = OfOneSecond(memory);
   Calibration calibration{capture};
   Calibration::Outcome outcome;
   FacePose face;
@@ -51,7 +58,7 @@ TEST(Calibration, TakesACalmFaceByItselfAndOnlyOnce) {
   EXPECT_FALSE(c.For(20, 0)) << "not for long enough";
   ASSERT_TRUE(c.For(30, 0));
   EXPECT_TRUE(c.outcome.taken);
-  EXPECT_FALSE(c.outcome.command);
+  EXPECT_FALSE(c.outcome.request);
   EXPECT_EQ(c.outcome.neutral.count, kMaxLandmarks);
   EXPECT_FALSE(c.For(300, 0));
 }
@@ -75,36 +82,96 @@ TEST(Calibration, WaitsForClosedLipsByItselfButNotForEver) {
   EXPECT_TRUE(c.For(40 * Calibration::kPatience, 1)) << "some people's lips never close";
 }
 
-TEST(Calibration, TakesWhatACommandAsksFor) {
-  Context c;
-  ASSERT_TRUE(c.calibration.Begin({.id = 3, .code = wire::CommandCode::kCalibrateNeutral}));
-  EXPECT_FALSE(c.calibration.Begin({.id = 4})) << "one at a time";
-  ASSERT_TRUE(c.For(60, 1)) << "the performer was told to; open lips are his choice";
-  ASSERT_TRUE(c.outcome.command);
-  EXPECT_EQ(c.outcome.command->id, 3);
-  EXPECT_EQ(c.outcome.result, wire::CommandResult::kOk);
+constexpr Request kAsked = {.command = {.id = 3, .code = wire::CommandCode::kCalibrateNeutral}};
+
+// As For, with a head that nods to and fro by 10 degrees within every half second.
+bool ForNodding(Context& c, int frames) {
+  for (int i = 0; i < frames; ++i) {
+    const float pitch = 0.17F * std::sin(static_cast<float>(i) / 2);
+    c.face.camera_R_head = {
+        1, 0, 0, 0, std::cos(pitch), -std::sin(pitch), 0, std::sin(pitch), std::cos(pitch)};
+    if (c.For(1, 0)) return true;
+  }
+  return false;
 }
 
-TEST(Calibration, TellsACommandThatTheFaceWentAway) {
+TEST(Calibration, TakesWhatARequestAsksForAfterOneSecond) {
   Context c;
-  ASSERT_TRUE(c.calibration.Begin({.id = 3}));
+  ASSERT_TRUE(c.calibration.Begin(kAsked, c.face.captured));
+  EXPECT_FALSE(c.For(31, 1)) << "the performer was told to; parted lips are his choice";
+  ASSERT_TRUE(c.For(1, 1));
+  ASSERT_TRUE(c.outcome.request);
+  EXPECT_EQ(c.outcome.request->command.id, 3);
+  EXPECT_EQ(c.outcome.result, wire::CommandResult::kOk);
+  EXPECT_TRUE(c.outcome.taken);
+}
+
+TEST(Calibration, DoesOneRequestAtATimeAndKnowsItAgain) {
+  Context c;
+  ASSERT_TRUE(c.calibration.Begin(kAsked, c.face.captured));
+  EXPECT_FALSE(c.For(20, 0));
+  EXPECT_FALSE(c.calibration.Begin({.command = {.id = 4}}, c.face.captured));
+  EXPECT_FALSE(c.calibration.Begin({.command = {.id = 3}, .asker = kButton}, c.face.captured));
+  EXPECT_TRUE(c.calibration.Begin(kAsked, c.face.captured)) << "sent again, to be sure";
+  EXPECT_TRUE(c.For(12, 0)) << "and not begun again";
+}
+
+TEST(Calibration, TellsWhoAskedThatTheFaceWentAway) {
+  Context c;
+  ASSERT_TRUE(c.calibration.Begin(kAsked, c.face.captured));
   EXPECT_FALSE(c.For(10, 0));
   ASSERT_TRUE(c.For(1, 0, false));
   EXPECT_EQ(c.outcome.result, wire::CommandResult::kNoFace);
   EXPECT_FALSE(c.outcome.taken);
 }
 
-TEST(Calibration, TellsACommandThatTheFaceMovedTooMuch) {
+TEST(Calibration, TakesTheFirstStillSecondHoweverLateItComes) {
   Context c;
-  ASSERT_TRUE(c.calibration.Begin({.id = 3}));
-  bool ended = false;
-  for (int i = 0; i < 60 && !ended; ++i) {
-    for (std::size_t k = 0; k < c.face.count; ++k)
-      c.face.points_cm[k].x += i % 2 == 0 ? 2.0F : -2.0F;
-    ended = c.For(1, 0);
-  }
-  ASSERT_TRUE(ended);
-  EXPECT_EQ(c.outcome.result, wire::CommandResult::kFailed);
+  ASSERT_TRUE(c.calibration.Begin(kAsked, c.face.captured));
+  EXPECT_FALSE(ForNodding(c, 240)) << "eight seconds";
+  ASSERT_TRUE(c.For(60, 0));
+  EXPECT_EQ(c.outcome.result, wire::CommandResult::kOk);
+}
+
+TEST(Calibration, GivesUpAfterTenSecondsAndSaysWhatWasWrong) {
+  Context c;
+  ASSERT_TRUE(c.calibration.Begin(kAsked, c.face.captured));
+  EXPECT_FALSE(ForNodding(c, 300));
+  ASSERT_TRUE(ForNodding(c, 20));
+  EXPECT_EQ(c.outcome.result, wire::CommandResult::kHeadTurned);
+  EXPECT_GT(c.outcome.measure, 8);
+  EXPECT_LT(c.outcome.measure, 12);
+  EXPECT_FALSE(c.outcome.taken);
+  EXPECT_FALSE(ForNodding(c, 300)) << "it is over";
+}
+
+TEST(Calibration, GivesUpWhenNoPictureComes) {
+  Context c;
+  ASSERT_TRUE(c.calibration.Begin(kAsked, c.face.captured));
+  EXPECT_FALSE(c.For(10, 0));
+  Calibration::Outcome outcome;
+  EXPECT_FALSE(c.calibration.Wait(c.face.captured + std::chrono::seconds(5), outcome));
+  ASSERT_TRUE(c.calibration.Wait(c.face.captured + std::chrono::seconds(10), outcome));
+  EXPECT_EQ(outcome.result, wire::CommandResult::kNoFace);
+}
+
+TEST(Calibration, StillTakesOneByItselfAfterARequestThatFailed) {
+  Context c;
+  c.calibration.BeginByItself();
+  EXPECT_FALSE(c.For(20, 0));
+  ASSERT_TRUE(c.calibration.Begin(kAsked, c.face.captured));
+  ASSERT_TRUE(c.For(1, 0, false));
+  ASSERT_TRUE(c.For(60, 0));
+  EXPECT_FALSE(c.outcome.request);
+  EXPECT_TRUE(c.outcome.taken);
+}
+
+TEST(Calibration, TakesNoneByItselfAfterARequestThatWasMet) {
+  Context c;
+  c.calibration.BeginByItself();
+  ASSERT_TRUE(c.calibration.Begin(kAsked, c.face.captured));
+  ASSERT_TRUE(c.For(60, 0));
+  EXPECT_FALSE(c.For(300, 0)) << "the performer's own choice is not replaced";
 }
 
 }  // namespace

@@ -58,12 +58,21 @@ TEST(LoadConfig, SaysWhatIsWrongWhereAndWhatWouldBeRight) {
        "F:2:11: states.hold_ms: -1 is out of range; allowed: 0 to 600000 ms"},
       {"[states]\nneutral_frames = 0\n",
        "F:2:18: states.neutral_frames: 0 is out of range; allowed: 1 to 1000 frames"},
+      {"[character]\nblend = 50\n", "F:2:9: character.blend: 50 is out of range; allowed: 0 to 1"},
       {"[filter.eyes]\nbeta = false\n",
        "F:2:8: filter.eyes.beta: is true or false; expected a number"},
       {"[host]\nmin_rate_hz = 5\n",
        "F:2:15: host.min_rate_hz: 5 is out of range; allowed: 20 to 240 Hz"},
   };
   for (const Row& row : table) EXPECT_EQ(Complaint(row.text), row.complaint) << row.text;
+}
+
+TEST(LoadConfig, RefusesAPathThatIsTooLongForASocket) {
+  const std::string longest = "/" + std::string(106, 's');
+  EXPECT_EQ(Complaint("[control]\nsocket = \"" + longest + "\"\n"), "");
+  EXPECT_EQ(Complaint("[control]\nsocket = \"" + longest + "s\"\n"),
+            "F:2:10: control.socket: the path " + longest +
+                "s is too long for a socket; at most 107 characters");
 }
 
 TEST(LoadConfig, ReportsEveryProblemAtOnceInTheOrderOfTheFile) {
@@ -138,6 +147,8 @@ TEST(ExampleConfig, ListsEveryKeyWithItsDefault) {
   EXPECT_EQ(read.pose.vertical_fov_deg, defaults.pose.vertical_fov_deg);
   EXPECT_EQ(read.character.rig.filename(), defaults.character.rig.filename());
   EXPECT_EQ(read.character.profile, defaults.character.profile);
+  EXPECT_EQ(read.character.personal, defaults.character.personal);
+  EXPECT_EQ(read.character.blend, defaults.character.blend);
   EXPECT_EQ(read.neutral.folder, defaults.neutral.folder);
   EXPECT_EQ(read.neutral.auto_s, defaults.neutral.auto_s);
   EXPECT_EQ(read.host.line, defaults.host.line);
@@ -145,6 +156,7 @@ TEST(ExampleConfig, ListsEveryKeyWithItsDefault) {
   EXPECT_EQ(read.host.write_budget_ms, defaults.host.write_budget_ms);
   EXPECT_EQ(read.host.min_rate_hz, defaults.host.min_rate_hz);
   EXPECT_EQ(read.host.describe_every_s, defaults.host.describe_every_s);
+  EXPECT_EQ(read.control.socket, defaults.control.socket);
   EXPECT_EQ(read.states.start_ramp, defaults.states.start_ramp);
   EXPECT_EQ(read.states.acquire, defaults.states.acquire);
   EXPECT_EQ(read.states.hold, defaults.states.hold);
@@ -161,7 +173,7 @@ TEST(ExampleConfig, OmitsNoKeyThatTheReaderKnows) {
       ParseTomlFile(std::filesystem::path(FACEWIRE_SOURCE_DIR) / "app/share/facewire.toml");
   for (const char* path :
        {"", "camera", "camera.replay", "tracker", "filter", "filter.eyes", "filter.mouth",
-        "filter.rest", "pose", "character", "neutral", "host", "states"}) {
+        "filter.rest", "pose", "character", "neutral", "host", "control", "states"}) {
     const std::string header = *path == 0 ? "" : "[" + std::string(path) + "]\n";
     const std::string what = Complaint(header + "qqqqqqqqqqqqqqqqqqqq = 1\n");
     const std::size_t known = what.find("known: ");

@@ -7,12 +7,14 @@
 #include <sys/un.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <optional>
+#include <thread>
 
+#include "app/profile_file.h"
 #include "core/wire/decoder.h"
-#include "core/wire/encoder.h"
 #include "core/wire/pose.h"
 #include "core/wire/rig_description.h"
 #include "hal/pty/pty_port.h"
@@ -55,17 +57,10 @@ class Listener {
     }
     return true;
   }
-  void Send(wire::CommandCode code) {
-    std::array<std::byte, wire::kCommandFrameBytes> frame;
-    const auto bytes = encoder_.Encode(wire::Command{.id = 5, .code = code}, frame);
-    ASSERT_TRUE(bytes);
-    ASSERT_TRUE(port_.Write(*bytes, seconds(1)));
-  }
 
   wire::RigCollector rig;
   std::vector<wire::Pose> poses;
   std::vector<wire::Status> statuses;
-  std::vector<wire::Acknowledgement> answers;
   bool hung_up = false;
   const wire::LinkStats& stats() const { return decoder_.stats(); }
   ServiceState state() const {
@@ -98,14 +93,12 @@ class Listener {
       rig.Add(got->message);
       if (const auto* pose = std::get_if<wire::Pose>(&got->message)) poses.push_back(*pose);
       if (const auto* s = std::get_if<wire::Status>(&got->message)) statuses.push_back(*s);
-      if (const auto* a = std::get_if<wire::Acknowledgement>(&got->message)) answers.push_back(*a);
     }
   }
 
   hal::pty::PtyPort port_;
   bool open_ = false;
   wire::Decoder decoder_;
-  wire::Encoder encoder_;
 };
 
 class Facewired {
@@ -199,21 +192,78 @@ TEST(Facewired, ReloadsOnSighupAndKeepsTheOldRigWhenTheNewOneIsBad) {
   EXPECT_EQ(process.Wait(), 0);
 }
 
-TEST(Facewired, TakesAndKeepsANeutralOnCommand) {
-  Facewired f(Configuration());
-  Process process = f.Start({"--fake"});
-  Listener host(f.scratch / "line");
-  ASSERT_TRUE(host.Until([&] { return host.state() == ServiceState::kTracking; })) << process.err();
-  // A performer who moves is refused; he sits still sooner or later.
-  bool kept = false;
-  for (int i = 0; i < 10 && !kept; ++i) {
-    const std::size_t answers = host.answers.size();
-    host.Send(wire::CommandCode::kCalibrateNeutral);
-    ASSERT_TRUE(host.Until([&] { return host.answers.size() > answers; }));
-    kept = host.answers.back().result == wire::CommandResult::kOk;
-    EXPECT_EQ(std::filesystem::exists(f.scratch / "state/performer.neutral"), kept);
+// Runs `facewire ARGUMENTS` to its end.
+Process Tool(const Facewired& f, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), FACEWIRE_TOOL);
+  return {arguments, f.scratch / "tool.out", f.scratch / "tool.err"};
+}
+
+TEST(Facewired, TakesAndKeepsANeutralOnCommandAcrossARestartAndACrash) {
+  Facewired f(Configuration("[control]\nsocket = \"control\"\n"));
+  const std::filesystem::path file = f.scratch / "state/performer.neutral";
+  {
+    Process process = f.Start({"--fake"});
+    Listener host(f.scratch / "line");
+    ASSERT_TRUE(host.Until([&] { return host.state() == ServiceState::kTracking; }))
+        << process.err();
+    // The performer of this recording talks and blinks, and sits still in between.
+    Process calibrate = Tool(f, {"calibrate", (f.scratch / "control").string()});
+    std::optional<int> code;
+    std::jthread waiting([&] { code = calibrate.Wait(); });
+    EXPECT_TRUE(host.Until([&] { return std::filesystem::exists(file); }));
+    waiting.join();
+    EXPECT_EQ(code, 0) << calibrate.err();
+    EXPECT_EQ(calibrate.out(), "the neutral was taken, and is kept\n");
+    process.Signal(SIGKILL);
+    EXPECT_EQ(process.Wait(), -1);
   }
-  EXPECT_TRUE(kept);
+  EXPECT_TRUE(std::filesystem::exists(f.scratch / "control")) << "it had no time to clear up";
+  const std::string kept = ReadAll(file);
+  // A crash in the middle of writing leaves a part beside the file, and the file as it was.
+  f.scratch.Write("state/performer.neutral.XXXXXX", kept.substr(0, kept.size() / 2));
+  {
+    Process again = f.Start({"--fake"});
+    Listener host(f.scratch / "line");
+    ASSERT_TRUE(host.Until([&] { return host.state() == ServiceState::kTracking; })) << again.err();
+    EXPECT_THAT(again.err(), testing::Not(HasSubstr("taking a new neutral")));
+    EXPECT_THAT(again.err(), testing::Not(HasSubstr("control socket")))
+        << "the old one is replaced";
+    EXPECT_EQ(ReadAll(file), kept);
+    Process blend = Tool(f, {"blend", "50", (f.scratch / "control").string()});
+    EXPECT_EQ(blend.Wait(), 1);
+    EXPECT_THAT(blend.err(), HasSubstr("no personal profile"));
+    again.Signal(SIGTERM);
+    EXPECT_EQ(again.Wait(), 0);
+  }
+  EXPECT_FALSE(std::filesystem::exists(f.scratch / "control")) << "removed at the end";
+  // And a file that is damaged all the same does not keep the board from starting.
+  f.scratch.Write("state/performer.neutral", kept.substr(0, kept.size() / 2));
+  Process third = f.Start({"--fake", "--seconds", "0.5"});
+  EXPECT_EQ(third.Wait(), 0);
+  EXPECT_THAT(third.err(), HasSubstr("taking a new neutral"));
+}
+
+TEST(Facewired, RefusesToServeASocketThatAnotherOneServes) {
+  const std::string control = "[control]\nsocket = \"control\"\n";
+  Facewired f(Configuration(control));
+  Process first = f.Start({"--fake"});
+  Listener host(f.scratch / "line");
+  ASSERT_TRUE(host.Until([&] { return !host.poses.empty(); })) << first.err();
+  Process second({FACEWIRED, "--fake", "--config", (f.scratch / "facewire.toml").string()},
+                 f.scratch / "out2", f.scratch / "err2");
+  EXPECT_EQ(second.Wait(), 2);
+  EXPECT_THAT(second.err(), HasSubstr("another facewired serves this control socket"));
+  Process calibrate = Tool(f, {"calibrate", (f.scratch / "control").string(), "--timeout", "0.1"});
+  EXPECT_EQ(calibrate.Wait(), 1);
+  EXPECT_TRUE(std::filesystem::exists(f.scratch / "control")) << "the first one still serves";
+}
+
+TEST(Facewired, RunsWithoutAControlSocketWhereThereCanBeNone) {
+  Facewired f(Configuration("[control]\nsocket = \"no/folder/control\"\n"));
+  Process process = f.Start({"--fake", "--seconds", "0.5"});
+  EXPECT_EQ(process.Wait(), 0);
+  EXPECT_THAT(process.err(), HasSubstr("running without the control socket"));
+  EXPECT_THAT(process.err(), HasSubstr("its folder does not exist"));
 }
 
 TEST(Facewired, TellsSystemdHowItFares) {
@@ -272,6 +322,64 @@ TEST(Facewired, ChecksWithoutTouchingADevice) {
   Process run = f.Start();
   EXPECT_EQ(run.Wait(), 2);
   EXPECT_THAT(run.err(), HasSubstr("/dev/no-such-port"));
+}
+
+// A profile of three poses of the given markers, which gives "jawOpen", and "mutter", always 1.
+void WriteProfile(const Scratch& scratch, const std::vector<std::string>& markers) {
+  TrainingSet training;
+  retarget::RegionConfig region;
+  region.name = *ShortName::From("face");
+  region.rbf.smoothing = 0.01F;
+  for (const std::string& marker : markers) {
+    EXPECT_TRUE(region.points.try_push(static_cast<std::uint16_t>(training.markers.size())));
+    training.markers.push_back(*ShortName::From(marker));
+  }
+  for (const char* signal : {"jawOpen", "mutter"}) {
+    EXPECT_TRUE(region.outputs.try_push(static_cast<std::uint16_t>(training.signals.size())));
+    training.signals.push_back(*ShortName::From(signal));
+  }
+  training.regions.push_back(region);
+  for (const float open : {0.F, 0.5F, 1.F}) {
+    for (std::size_t i = 0; i < markers.size(); ++i)
+      training.samples.insert(training.samples.end(), {static_cast<float>(i), -open, 4});
+    training.targets.insert(training.targets.end(), {open, 1});
+  }
+  SaveProfile(scratch / "me.profile", training);
+}
+
+std::string WithPersonalProfile() {
+  return Replaced(Configuration(), "[neutral]",
+                  "personal = \"me.profile\"\nblend = 0.5\n[neutral]");
+}
+
+TEST(Facewired, CountsAPersonalProfileInCheckAndMemory) {
+  Facewired f(WithPersonalProfile());
+  WriteProfile(f.scratch, {"lm13", "lm14", "lm152", "lm61"});
+  Process check = f.Start({"--fake", "--check", "--memory"});
+  EXPECT_EQ(check.Wait(), 0) << check.err();
+  EXPECT_THAT(check.out(), HasSubstr("me.profile: 2 signals, 1 of them shared, blend 0.50\n"));
+  EXPECT_THAT(check.out(), HasSubstr("\npersonal profile "));
+}
+
+TEST(Facewired, BlendsASignalThatOnlyThePersonalProfileGivesAndReloadsTheBlend) {
+  const auto configuration = [](const char* blend) {
+    return Replaced(Replaced(WithPersonalProfile(), kRig, "rig.toml"), "blend = 0.5", blend);
+  };
+  Facewired f(configuration("blend = 0.5"));
+  f.scratch.Write("rig.toml", "name = \"r\"\n[[parameter]]\nname = \"mutter\"\n");
+  WriteProfile(f.scratch, {"lm13", "lm14", "lm152", "lm61"});
+  Process process = f.Start({"--fake"});
+  Listener host(f.scratch / "line");
+  const auto mutters = [&](float value) {
+    return host.state() == ServiceState::kTracking && host.rig.Complete() &&
+           std::abs(wire::ValuesOf(host.poses.back(), host.rig.rig()).values[0] - value) < 1e-3F;
+  };
+  ASSERT_TRUE(host.Until([&] { return mutters(0.5F); })) << process.err();
+  f.scratch.Write("facewire.toml", configuration("blend = 0.75"));
+  process.Signal(SIGHUP);
+  ASSERT_TRUE(host.Until([&] { return mutters(0.75F); })) << process.err();
+  process.Signal(SIGTERM);
+  EXPECT_EQ(process.Wait(), 0);
 }
 
 struct Row {
@@ -345,6 +453,16 @@ TEST(Facewired, RefusesBadInputWithOneLineAndExitCodeTwo) {
          f.scratch.Write("facewire.toml", Configuration("", kRig, "p.profile"));
        },
        "p.profile: the profile is of version 99"},
+      {"personal profile that is not there",
+       [&](Facewired& f) { f.scratch.Write("facewire.toml", WithPersonalProfile()); },
+       "me.profile: there is no such profile"},
+      {"personal profile of a marker file's names",
+       [&](Facewired& f) {
+         WriteProfile(f.scratch, {"chin", "lip", "brow", "nose"});
+         f.scratch.Write("facewire.toml", WithPersonalProfile());
+       },
+       "me.profile: reads markers (\"chin\", ...) that a camera does not show; train it with "
+       "landmarks, lm0 to lm477"},
       {"video that is none",
        [&](Facewired& f) {
          f.scratch.Write("x.mp4", "not a video");

@@ -1,10 +1,12 @@
 // The promise of the design: after start the service takes nothing from the heap and gives nothing
 // back. The whole service runs here as it runs in the demo: real networks, the shipped profile and
-// rig, looped footage in memory, a pseudo-terminal with somebody reading at its other end.
+// rig, looped footage in memory, a pseudo-terminal with somebody reading at its other end, and
+// programs that come and go at the control socket.
 
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <optional>
 #include <span>
@@ -13,6 +15,8 @@
 
 #include "app/application.h"
 #include "core/wire/decoder.h"
+#include "core/wire/encoder.h"
+#include "hal/local/local_port.h"
 #include "hal/pty/pty_port.h"
 #include "hal/system_clock.h"
 #include "tests/app/scratch.h"
@@ -34,12 +38,14 @@ class Context {
                       "/networks\"\n[character]\nrig = \"" FACEWIRE_SOURCE_DIR
                       "/app/share/otto.toml\"\nprofile = \"" FACEWIRE_SOURCE_DIR
                       "/app/share/average.profile\"\n[neutral]\nfolder = \"state\"\n"
-                      "[host]\nline = \"pty:line\"\ndescribe_every_s = 1.0\n");
+                      "[host]\nline = \"pty:line\"\ndescribe_every_s = 1.0\n"
+                      "[control]\nsocket = \"control\"\n");
     application.emplace(ApplicationOptions{.config = scratch / "facewire.toml", .fake = true},
                         clock);
     application->Open();
     reader.emplace((scratch / "line").string());
     EXPECT_TRUE(reader->Open());
+    operator_line.emplace((scratch / "control").string());
   }
   // Ticks; the host takes what has come.
   bool Tick() {
@@ -47,13 +53,51 @@ class Context {
     while (const auto read = reader->Read(buffer, std::chrono::milliseconds(0))) bytes += *read;
     return alive;
   }
+  // A program on the board comes, commands, talks nonsense, hears the answers, and goes.
+  void Command(std::uint64_t frame) {
+    std::array<std::byte, wire::kCommandFrameBytes> out;
+    switch (frame % 8) {
+      case 0:
+        EXPECT_TRUE(operator_line->Open());
+        break;
+      case 1:
+      case 2:
+      case 3: {
+        constexpr wire::CommandCode kCodes[] = {wire::CommandCode::kPing,
+                                                wire::CommandCode::kDescribeRig,
+                                                wire::CommandCode::kBlendProfile};
+        const auto sent =
+            encoder.Encode(wire::Command{.code = kCodes[frame % 8 - 1], .value = 0.5F}, out);
+        ASSERT_TRUE(sent);
+        EXPECT_TRUE(operator_line->Write(*sent, std::chrono::milliseconds(0)));
+        break;
+      }
+      case 4:
+        (void)operator_line->Write(std::span(buffer).first(frame % 16 == 4 ? 100 : 1000),
+                                   std::chrono::milliseconds(0));
+        break;
+      case 6:
+        while (const auto read = operator_line->Read(buffer, std::chrono::milliseconds(0))) {
+          answered += *read;
+        }
+        break;
+      case 7:
+        operator_line->Close();
+        break;
+      default:
+        break;
+    }
+  }
 
   Scratch scratch;
   hal::SystemClock clock;
   std::optional<Application> application;
   std::optional<hal::pty::PtyPort> reader;
+  std::optional<hal::local::LocalPort> operator_line;
+  wire::Encoder encoder;
   std::array<std::byte, 8192> buffer;
   std::size_t bytes = 0;
+  std::size_t answered = 0;
 };
 
 TEST(NoAllocation, TheServiceRunsWithoutTheHeapFromFrame10ToFrame1000) {
@@ -65,7 +109,10 @@ TEST(NoAllocation, TheServiceRunsWithoutTheHeapFromFrame10ToFrame1000) {
   const std::size_t before = c.bytes;
   counter.Arm();
   bool alive = true;
-  while (alive && stats.frames < 1000) alive = c.Tick();
+  for (std::uint64_t tick = 0; alive && stats.frames < 1000; ++tick) {
+    c.Command(tick);
+    alive = c.Tick();
+  }
   counter.Disarm();
   counter.PrintFirst();
   EXPECT_TRUE(alive);
@@ -74,6 +121,8 @@ TEST(NoAllocation, TheServiceRunsWithoutTheHeapFromFrame10ToFrame1000) {
   // It was the real thing.
   EXPECT_GT(stats.faces, 900U);
   EXPECT_GT(c.bytes - before, 100'000U);
+  EXPECT_GT(stats.commands, 300U);
+  EXPECT_GT(c.answered, 5000U);
   EXPECT_EQ(c.application->service().state(), ServiceState::kTracking);
 }
 

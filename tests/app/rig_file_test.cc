@@ -74,6 +74,40 @@ drive = { eyeBlinkLeft = 255 }
   EXPECT_FLOAT_EQ(rig.channels[3].drives[0].gain, 255);
 }
 
+TEST(LoadRig, ReadsHowAChannelAnswers) {
+  const Scratch scratch;
+  const Rig rig = LoadRig(scratch.Write("rig.toml", R"(
+name = "test"
+[[bone]]
+name = "jaw"
+landmark = "chin"
+pitch = { min = 0, max = 20, gain = 1.5, bias = 0.5, knee = 0.25, curve = [[0, 0], [5, 2.5], [20, 20]], drive = { jawOpen = 18 } }
+z = { min = -1, max = 1.5, gain = -2 }
+[[parameter]]
+name = "jawOpen"
+knee = 0.05
+[[parameter]]
+name = "eyeBlinkLeft"
+)"),
+                          &kSignals);
+  const Channel& pitch = rig.channels[*rig.FindChannel("jaw.pitch")];
+  EXPECT_FLOAT_EQ(pitch.response.gain, 1.5F);
+  EXPECT_FLOAT_EQ(pitch.response.bias, 0.5F);
+  EXPECT_FLOAT_EQ(pitch.knee, 0.25F);
+  ASSERT_EQ(pitch.response.curve.size(), 3U);
+  EXPECT_FLOAT_EQ(pitch.response.curve[1].in, 5);
+  EXPECT_FLOAT_EQ(pitch.response.curve[1].out, 2.5F);
+  const Channel& z = rig.channels[*rig.FindChannel("jaw.z")];
+  EXPECT_FLOAT_EQ(z.response.gain, -2);
+  EXPECT_EQ(z.response.bias, 0);
+  EXPECT_TRUE(z.response.curve.empty());
+  EXPECT_FLOAT_EQ(z.knee, 0.1F) << "a bone runs softly to its end";
+  EXPECT_FLOAT_EQ(rig.channels[*rig.FindChannel("jawOpen")].knee, 0.05F);
+  const Channel& plain = rig.channels[*rig.FindChannel("eyeBlinkLeft")];
+  EXPECT_EQ(plain.knee, 0) << "a blend shape reaches 1";
+  EXPECT_EQ(plain.response.gain, 1);
+}
+
 struct Row {
   const char* text;
   const char* complaint;
@@ -124,6 +158,32 @@ TEST(LoadRig, SaysWhatIsWrongWhereAndWhatWouldBeRight) {
       {"name = \"r\"\n[[parameter]]\nname = \"p\"\ndrive = { \"head.pich\" = 1 }\n",
        "F:4:11: parameter[0].drive: no signal \"head.pich\" in the profile, nor of the head; did "
        "you mean \"head.pitch\"?"},
+      {"name = \"r\"\n[[parameter]]\nname = \"jawOpen\"\ngain = 1e4\n",
+       "F:4:8: parameter[0].gain: 10000 is out of range; allowed: -1000 to 1000"},
+      {"name = \"r\"\n[[parameter]]\nname = \"jawOpen\"\nknee = 0.6\n",
+       "F:4:8: parameter[0].knee: 0.6 is out of range; allowed: 0 to 0.5"},
+      {"name = \"r\"\n[[parameter]]\nname = \"jawOpen\"\nbias = 1.25\n",
+       "F:4:8: parameter[0].bias: takes a neutral face to 1.25, outside min to max, 0 to 1"},
+      {"name = \"r\"\n[[parameter]]\nname = \"jawOpen\"\ncurve = [[0, -0.5], [1, 1]]\n",
+       "F:4:9: parameter[0].curve: takes a neutral face to -0.5, outside min to max, 0 to 1"},
+      {"name = \"r\"\n[[parameter]]\nname = \"jawOpen\"\ncurve = 2\n",
+       "F:4:9: parameter[0].curve: is a number; expected an array of pairs, as [[0, 0], [1, 1]]"},
+      {"name = \"r\"\n[[parameter]]\nname = \"jawOpen\"\ncurve = [[0, 0], [1]]\n",
+       "F:4:18: parameter[0].curve[1]: expected a pair of numbers, as [0, 0]"},
+      {"name = \"r\"\n[[parameter]]\nname = \"jawOpen\"\ncurve = [[0, 0], [1, nan]]\n",
+       "F:4:22: parameter[0].curve[1][1]: nan is out of range; allowed: -1e+06 to 1e+06"},
+      {"name = \"r\"\n[[parameter]]\nname = \"jawOpen\"\ncurve = [[0, 0]]\n",
+       "F:4:9: parameter[0].curve: needs two points at least, as [[0, 0], [1, 1]]"},
+      {"name = \"r\"\n[[parameter]]\nname = \"jawOpen\"\ncurve = [[0, 0], [1, 1], [1, 2]]\n",
+       "F:4:26: parameter[0].curve: the point at 1 comes after the one at 1; points go from left "
+       "to "
+       "right"},
+      {"name = \"r\"\n[[parameter]]\nname = \"jawOpen\"\ncurve = [[0, 1], [1, 0.5], [0, 9]]\n",
+       "F:4:18: parameter[0].curve: falls from 1 to 0.5; a curve only rises, a negative gain turns "
+       "the channel around"},
+      {"name = \"r\"\n[[parameter]]\nname = \"jawOpen\"\n"
+       "curve = [[0,0],[1,1],[2,2],[3,3],[4,4],[5,5],[6,6],[7,7],[8,8]]\n",
+       "F:4:58: parameter[0].curve: too many points; the most is 8"},
       {"name = \"r\"\nparameter = 4\n",
        "F:2:13: parameter: is a number; expected tables "
        "([[parameter]])"},
@@ -184,6 +244,15 @@ TEST(Otto, ClosesItsUpperLidsAsFastAsABlink) {
     const float a = lid.max_acceleration_per_s2;
     const float seconds = way >= v * v / a ? way / v + v / a : 2 * std::sqrt(way / a);
     EXPECT_LT(seconds, 0.075F) << name;
+  }
+}
+
+// A soft knee would leave them open by a crack.
+TEST(Otto, ClosesItsUpperLidsFully) {
+  const Rig rig = LoadRig(Otto());
+  for (const char* name : {"upper_lid_L.pitch", "upper_lid_R.pitch"}) {
+    const Channel& lid = rig.channels[*rig.FindChannel(name)];
+    EXPECT_EQ(lid.ValueOf(lid.drives[0].gain), lid.max) << name;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -28,6 +29,7 @@ class ScriptedFollower final : public Follower {
     followed.face = face;
     followed.face.seq = frame.seq;
     followed.face.captured = frame.captured;
+    if (act) act(followed.face);
     followed.rig.count = 3;
     followed.rig.values[0] = jaw;
     followed.rig.values[1] = followed.rig.values[2] = blink;
@@ -42,6 +44,7 @@ class ScriptedFollower final : public Follower {
   float jaw = 10;
   float blink = 0;
   FacePose face;
+  std::function<void(FacePose&)> act;  // what the face does at its time
   int forgotten = 0;
   int uses = 0;
 };
@@ -88,19 +91,29 @@ class ServiceContext {
     EXPECT_TRUE(line.Open());
   }
   void Begin() {
-    service.emplace(config,
-                    ServiceParts{.camera = camera,
-                                 .line = line,
-                                 .clock = clock,
-                                 .follower = follower,
-                                 .capture = capture,
-                                 .stop = &stop,
-                                 .keep_neutral =
-                                     [this](const retarget::Neutral&) {
-                                       ++kept;
-                                       return keeps;
-                                     }},
-                    character);
+    service.emplace(
+        config,
+        ServiceParts{.camera = camera,
+                     .line = line,
+                     .clock = clock,
+                     .follower = follower,
+                     .capture = capture,
+                     .control = &control,
+                     .stop = &stop,
+                     .calibrate = &button,
+                     .keep_neutral =
+                         [this](const retarget::Neutral&) {
+                           ++kept;
+                           return keeps;
+                         },
+                     .blend_profile =
+                         [this](float part) {
+                           blend = part;
+                           return has_personal_profile;
+                         },
+                     .log_answer =
+                         [this](const wire::Acknowledgement& answer) { logged.push_back(answer); }},
+        character);
   }
   void Configure(Character& which, const Rig& rig) {
     which.rig = rig;
@@ -126,9 +139,10 @@ class ServiceContext {
     For(std::chrono::milliseconds(500));
     ASSERT_EQ(service->state(), ServiceState::kTracking);
   }
-  void SendCommand(wire::CommandCode code, std::uint16_t id = 7) {
+  void SendCommand(wire::CommandCode code, std::uint16_t id = 7, float value = 0) {
     std::array<std::byte, wire::kCommandFrameBytes> frame;
-    const auto bytes = host_encoder.Encode(wire::Command{.id = id, .code = code}, frame);
+    const auto bytes =
+        host_encoder.Encode(wire::Command{.id = id, .code = code, .value = value}, frame);
     ASSERT_TRUE(bytes);
     ASSERT_TRUE(port.Feed(*bytes));
   }
@@ -140,17 +154,22 @@ class ServiceContext {
   hal::fake::FakeCamera camera{{.pictures = std::span(&picture, 1)}, clock};
   hal::fake::FakeSerialPort port{clock};
   hal::fake::FakeGpioInput stop;
+  hal::fake::FakeGpioInput button;
   ScriptedFollower follower;
   Character character;
   std::vector<std::vector<std::byte>> memories;
   std::vector<std::byte> capture_memory;
   retarget::NeutralCapture capture;
   ServiceConfig config;
+  Control control;  // closed, unless a test opens it
   HostLine line{&port, clock, std::chrono::milliseconds(5)};
   std::optional<Service> service;
   bool alive = true;
   int kept = 0;
   bool keeps = true;
+  std::optional<float> blend;
+  bool has_personal_profile = true;
+  std::vector<wire::Acknowledgement> logged;
 
   // The host's side.
   wire::Encoder host_encoder;

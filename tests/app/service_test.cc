@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/app/performer.h"
 #include "tests/app/service_context.h"
 
 namespace facewire::app {
@@ -284,9 +285,7 @@ TEST(Service, GoesOnWithoutALine) {
                    .line = none,
                    .clock = c.clock,
                    .follower = c.follower,
-                   .capture = c.capture,
-                   .stop = nullptr,
-                   .keep_neutral = {}},
+                   .capture = c.capture},
                   c.character);
   c.follower.failure.reset();
   for (int i = 0; i < 100; ++i) EXPECT_TRUE(service.Tick());
@@ -338,6 +337,94 @@ TEST(Service, AnswersCalibrationWithNoFaceWhenTheFaceGoesMeanwhile) {
   EXPECT_EQ(c.answers[1].result, CommandResult::kNoFace);
 }
 
+TEST(Service, AnswersACalibrationAlthoughTheCameraFellSilent) {
+  ServiceContext c;
+  c.BringToTracking();
+  c.SendCommand(CommandCode::kCalibrateNeutral);
+  c.For(milliseconds(100));
+  c.camera.FallSilent();
+  c.For(seconds(11));
+  ASSERT_EQ(c.answers.size(), 1U);
+  EXPECT_NE(c.answers[0].result, CommandResult::kOk);
+}
+
+TEST(Service, BlendsThePersonalProfileIn) {
+  ServiceContext c;
+  c.SendCommand(CommandCode::kBlendProfile, 1, 0.25F);
+  c.For(milliseconds(100));
+  EXPECT_EQ(c.blend, 0.25F);
+  c.SendCommand(CommandCode::kBlendProfile, 2, 1.01F);
+  c.SendCommand(CommandCode::kBlendProfile, 3, -0.01F);
+  c.For(milliseconds(100));
+  EXPECT_EQ(c.blend, 0.25F) << "unchanged";
+  c.has_personal_profile = false;
+  c.SendCommand(CommandCode::kBlendProfile, 4, 1);
+  c.For(milliseconds(100));
+  ASSERT_EQ(c.answers.size(), 4U);
+  EXPECT_EQ(c.answers[0].result, CommandResult::kOk);
+  for (int i = 1; i < 4; ++i) EXPECT_EQ(c.answers[i].result, CommandResult::kRefused) << i;
+}
+
+// What a hand does to the button, with the pictures' own time.
+void PressButton(ServiceContext& c, Duration time) {
+  c.button.Hold(true);
+  c.For(time);
+  c.button.Hold(false);
+  c.For(milliseconds(200));
+}
+
+TEST(Service, CalibratesAtAShortPressOfTheButton) {
+  ServiceContext c;
+  c.follower.face = StillPerformer();
+  c.BringToTracking();
+  PressButton(c, milliseconds(300));
+  EXPECT_TRUE(c.logged.empty()) << "it takes a second";
+  c.For(seconds(2));
+  ASSERT_EQ(c.logged.size(), 1U);
+  EXPECT_EQ(c.logged[0].code, CommandCode::kCalibrateNeutral);
+  EXPECT_EQ(c.logged[0].result, CommandResult::kOk);
+  EXPECT_EQ(c.kept, 1);
+  EXPECT_TRUE(c.answers.empty()) << "the host did not ask";
+}
+
+TEST(Service, ReleasesAnEmergencyStopAtALongPressOfTheButtonAndNotAtAShortOne) {
+  ServiceContext c;
+  c.BringToTracking();
+  c.SendCommand(CommandCode::kStop);
+  c.Tick();
+  PressButton(c, milliseconds(1000));
+  EXPECT_EQ(c.last_pose.state, S::kStopped);
+  PressButton(c, milliseconds(2200));
+  c.For(seconds(1));
+  EXPECT_EQ(c.last_pose.state, S::kTracking);
+  ASSERT_EQ(c.logged.size(), 2U);
+  EXPECT_EQ(c.logged[0].result, CommandResult::kNoFace) << "nothing is calibrated in a stop";
+  EXPECT_EQ(c.logged[1].code, CommandCode::kRelease);
+}
+
+TEST(Service, TheButtonReleasesNothingWhileTheStopSwitchIsOnOrTheButtonIsStuckOrBroken) {
+  ServiceContext c;
+  c.button.Hold(true);  // from the beginning
+  c.BringToTracking();
+  c.SendCommand(CommandCode::kStop);
+  c.For(seconds(4));
+  EXPECT_EQ(c.last_pose.state, S::kStopped);
+  c.button.Hold(false);
+  c.For(milliseconds(200));
+  c.button.Break(Errc::kIo);
+  c.For(seconds(4));
+  c.button.Repair();
+  c.For(milliseconds(200));
+  EXPECT_TRUE(c.logged.empty());
+  c.stop.Hold(true);
+  PressButton(c, milliseconds(2500));
+  c.stop.Hold(false);
+  c.For(seconds(1));
+  EXPECT_EQ(c.last_pose.state, S::kStopped);
+  ASSERT_EQ(c.logged.size(), 1U);
+  EXPECT_EQ(c.logged[0].result, CommandResult::kRefused);
+}
+
 TEST(Service, GoesOnWithAnotherRigAfterAReload) {
   ServiceContext c;
   c.BringToTracking();
@@ -381,9 +468,7 @@ TEST(Service, PlaysARecordingByItsOwnTimeWhenItIsAsFastAsPossible) {
                    .line = c.line,
                    .clock = c.clock,
                    .follower = c.follower,
-                   .capture = c.capture,
-                   .stop = nullptr,
-                   .keep_neutral = {}},
+                   .capture = c.capture},
                   c.character);
   c.follower.failure.reset();
   const Time before = c.clock.Now();

@@ -14,6 +14,8 @@ void AddRetarget(CLI::App& facewire);
 void AddNeutral(CLI::App& facewire);
 void AddTrain(CLI::App& facewire);
 void AddMonitor(CLI::App& facewire);
+void AddCalibrate(CLI::App& facewire);
+void AddBlend(CLI::App& facewire);
 void AddSheet(CLI::App& facewire);
 void AddDoctor(CLI::App& facewire);
 

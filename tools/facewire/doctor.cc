@@ -83,10 +83,13 @@ void CheckConfig(const DoctorOptions& options, std::vector<Finding>& findings) {
   if (findings.back().verdict != Verdict::kOk) return;
   findings.push_back(Try("rig", config.character.rig.string(), "correct [character] rig",
                          [&] { (void)app::LoadRig(config.character.rig); }));
-  if (config.character.profile.empty()) return;
-  findings.push_back(Try("profile", config.character.profile.string(),
-                         "correct [character] profile",
-                         [&] { (void)app::LoadProfile(config.character.profile); }));
+  const auto check_profile = [&](const fs::path& path, const std::string& key) {
+    if (path.empty()) return;
+    findings.push_back(Try(key, path.string(), "correct [character] " + key,
+                           [&] { (void)app::LoadProfile(path); }));
+  };
+  check_profile(config.character.profile, "profile");
+  check_profile(config.character.personal, "personal");
 }
 
 // Device nodes whose names begin with one of the prefixes, in order.

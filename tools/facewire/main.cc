@@ -25,6 +25,8 @@ void AddCommands(CLI::App& facewire) {
   AddNeutral(facewire);
   AddTrain(facewire);
   AddMonitor(facewire);
+  AddCalibrate(facewire);
+  AddBlend(facewire);
   AddSheet(facewire);
   AddDoctor(facewire);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -17,12 +18,13 @@ namespace {
 
 using retarget::RegionConfig;
 
-constexpr std::array<std::pair<std::string_view, rbf::Kernel>, 5> kKernels = {{
+constexpr std::array<std::pair<std::string_view, rbf::Kernel>, 6> kKernels = {{
     {"multiquadric", rbf::Kernel::kMultiquadric},
     {"inverse-multiquadric", rbf::Kernel::kInverseMultiquadric},
     {"gaussian", rbf::Kernel::kGaussian},
     {"linear", rbf::Kernel::kLinear},
     {"cubic", rbf::Kernel::kCubic},
+    {"thin-plate", rbf::Kernel::kThinPlate},
 }};
 constexpr std::array<std::pair<std::string_view, rbf::Tail>, 3> kTails = {{
     {"none", rbf::Tail::kNone},
@@ -66,7 +68,9 @@ class RegionReader {
       region.rbf.kernel = ParseKernel(Text(*node), Where(*node));
     if (const auto* node = table_.get("tail"))
       region.rbf.tail = ParseTail(Text(*node), Where(*node));
-    region.rbf.epsilon = Setting("epsilon", rbf::RbfConfig{}.epsilon, region.rbf.epsilon);
+    if (const auto* node = table_.get("epsilon"))
+      region.rbf.epsilon = node->is_string() ? ParseEpsilon(Text(*node), Where(*node))
+                                             : Number("epsilon", region.rbf.epsilon);
     region.rbf.smoothing = Setting("smoothing", kAutomatic, region.rbf.smoothing);
     region.nnls.ridge = Setting("smoothing", kAutomatic, region.nnls.ridge);
     region.rbf.tail_smoothing = Setting("tail_smoothing", kAutomatic, region.rbf.tail_smoothing);
@@ -197,6 +201,18 @@ rbf::Kernel ParseKernel(std::string_view name, const std::string& where) {
 
 rbf::Tail ParseTail(std::string_view name, const std::string& where) {
   return Parse(kTails, name, where);
+}
+
+float ParseEpsilon(std::string_view text, const std::string& where) {
+  if (text == "auto") return rbf::kAutomaticEpsilon;
+  if (text == "mean") return rbf::kMeanDistanceEpsilon;
+  float epsilon = 0;
+  const char* end = text.data() + text.size();
+  const auto [parsed, error] = std::from_chars(text.data(), end, epsilon);
+  if (error != std::errc{} || parsed != end || !std::isfinite(epsilon) || epsilon <= 0)
+    throw app::BadInput(where + "\"" + std::string(text) +
+                        "\" is neither auto nor mean nor a positive number");
+  return epsilon;
 }
 
 std::vector<RegionConfig> ReadRegions(const std::filesystem::path& path,

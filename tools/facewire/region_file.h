@@ -31,6 +31,8 @@ retarget::RegionConfig WholeFace(const app::TrainingSet& training,
 retarget::Method ParseMethod(std::string_view name, const std::string& where);
 rbf::Kernel ParseKernel(std::string_view name, const std::string& where);
 rbf::Tail ParseTail(std::string_view name, const std::string& where);
+// "auto", "mean" or a positive number, as RbfConfig::epsilon.
+float ParseEpsilon(std::string_view text, const std::string& where);
 
 }  // namespace facewire::tools
 

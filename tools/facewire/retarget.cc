@@ -24,6 +24,8 @@ struct RetargetOptions {
   FaceOptions face;  // with the input, also when that is a marker file
   std::string rig;
   std::string profile;
+  std::string personal;
+  float blend_percent = 100;
   std::string neutral;
   std::string out;
   std::vector<std::string> rigid;
@@ -44,7 +46,10 @@ class Character {
  public:
   Character(const RetargetOptions& options, Rig rig)
       : rig_(rig), profile_(app::LoadProfile(ProfilePath(options))) {
-    if (const auto unknown = retarget::FirstUnknownSignal(rig_, &profile_->mapping())) {
+    if (!options.personal.empty()) personal_ = app::LoadProfile(options.personal);
+    const retarget::ExpressionMapping* personal =
+        personal_ == nullptr ? nullptr : &personal_->mapping();
+    if (const auto unknown = retarget::FirstUnknownSignal(rig_, &profile_->mapping(), personal)) {
       throw app::BadInput(options.rig + ": the signal " + std::string(unknown->view()) +
                           " is driven by, but the profile does not give it");
     }
@@ -54,7 +59,15 @@ class Character {
     }
     memory_.resize(retarget::Retargeter::RequiredBytes());
     arena_.emplace(std::span(memory_));
-    Check(retargeter_.Configure(rig_, &profile_->mapping(), *arena_), options.rig);
+    const Result<> configured =
+        retargeter_.Configure(rig_, &profile_->mapping(), *arena_, personal);
+    if (!configured && configured.error() == Errc::kUnsupported) {
+      throw app::BadInput(options.personal +
+                          ": reads markers that the profile does not have; train it with some of "
+                          "the profile's markers");
+    }
+    Check(configured, options.rig);
+    retargeter_.SetBlend(options.blend_percent / 100);
     Check(limiter_.Configure(rig_), options.rig);
   }
   Character(const Character&) = delete;
@@ -104,6 +117,7 @@ class Character {
 
   Rig rig_;
   std::unique_ptr<app::Profile> profile_;
+  std::unique_ptr<app::Profile> personal_;  // or none
   std::vector<std::byte> memory_;
   std::optional<Arena> arena_;
   retarget::Retargeter retargeter_;
@@ -123,32 +137,38 @@ void Retarget(const RetargetOptions& options) {
       IsMarkerFile(options.face.input)
           ? OpenMarkers(options.face.input, character->mapping(), options.rigid)
           : OpenVideo(options.face);
-  PoseWriter writer(options.out, character->rig());
+  const auto writer = OpenPoseWriter(options.out, character->rig());
 
   // Frames wait until the neutral is known, and are written from the first one on.
   std::deque<Moment> waiting;
   bool has_neutral = false;
   std::size_t frames = 0;
   std::size_t faces = 0;
+  std::int64_t last_us = 0;
   const auto take_neutral = [&] {
     character->Use(taker.Take());
     has_neutral = true;
-    for (const Moment& moment : waiting) character->Write(moment, writer);
+    for (const Moment& moment : waiting) character->Write(moment, *writer);
     waiting.clear();
   };
   while (const auto moment = performance->Next()) {
     ++frames;
     faces += moment->face ? 1 : 0;
+    last_us = moment->t_us;
     if (has_neutral) {
-      character->Write(*moment, writer);
+      character->Write(*moment, *writer);
       continue;
     }
     waiting.push_back(*moment);
     if (taker.Add(*moment)) take_neutral();
   }
   if (!has_neutral) take_neutral();
-  writer.Commit();
-  std::fprintf(stderr, "facewire retarget: %zu frames, a face in %zu\n", frames, faces);
+  writer->Commit();
+  // Animators set their scene to this before they import.
+  const double rate_hz =
+      last_us > 0 ? 1e6 * static_cast<double>(frames - 1) / static_cast<double>(last_us) : 0;
+  std::fprintf(stderr, "facewire retarget: %zu frames, %.5g a second, a face in %zu\n", frames,
+               rate_hz, faces);
   for (const std::string& line : character->MissingPoses())
     std::fprintf(stderr, "facewire retarget: %s\n", line.c_str());
 }
@@ -166,11 +186,20 @@ void AddRetarget(CLI::App& facewire) {
   command->add_option("--rig", options->rig, "The character")->required();
   command->add_option("--profile", options->profile,
                       "The trained mapping; for videos, the shipped one unless named");
+  CLI::Option* personal = command->add_option(
+      "--personal", options->personal,
+      "A profile of the performer's own poses, blended over the other by the names of signals");
+  command
+      ->add_option("--blend", options->blend_percent,
+                   "How much it counts, in percent: 0 (not at all) to 100, the default")
+      ->check(CLI::Range(0.0, 100.0))
+      ->needs(personal);
   command->add_option(
       "--neutral", options->neutral,
       "A:B, the face at rest is the median of frames A to B-1; else of the first two seconds");
   command
-      ->add_option("--out", options->out, "The file to write; .csv for CSV, JSON lines otherwise")
+      ->add_option("--out", options->out,
+                   "The file to write: .glb for a glTF animation, .csv for CSV, else JSON lines")
       ->required();
   command
       ->add_option(

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,12 +18,15 @@
 #include "tools/facewire/face_reader.h"
 #include "tools/facewire/output_file.h"
 #include "tools/facewire/recording.h"
+#include "tools/facewire/training_sheet.h"
 #include "tools/sheet/pick.h"
 
 namespace facewire::tools {
 namespace {
 
 struct SheetOptions {
+  std::string training;  // a sheet of a profile, or else of a recording
+  std::optional<std::string> rows;
   std::string recording;
   std::string rig;
   std::string out;
@@ -117,7 +121,14 @@ std::vector<Moment> TakeMoments(const std::vector<RigPose>& poses, const std::ve
   return moments;
 }
 
-void DrawSheetFile(const SheetOptions& options) {
+void WritePng(const cv::Mat& picture, OutputFile& out) {
+  std::vector<unsigned char> png;
+  if (!cv::imencode(".png", picture, png)) throw app::Failure("encoding the picture failed");
+  out.Write({reinterpret_cast<const char*>(png.data()), png.size()});
+  out.Commit();
+}
+
+void DrawRecording(const SheetOptions& options) {
   const Rig rig = app::LoadRig(options.rig);
   const std::vector<RecordedPose> recording = ReadRecording(options.recording, rig);
   const std::vector<Figure> figures = FiguresFor(FiguresOf(recording, rig), options.figures);
@@ -128,14 +139,22 @@ void DrawSheetFile(const SheetOptions& options) {
   const double start_s =
       std::chrono::duration<double>(recording.front().pose.captured.time_since_epoch()).count();
   const std::vector<Moment> moments = TakeMoments(poses, picks, start_s, reader);
-  const cv::Mat sheet = DrawSheet(
-      "what the camera saw, and what the character was told over the wire", figures, rig, moments);
-  std::vector<unsigned char> png;
-  if (!cv::imencode(".png", sheet, png)) throw app::Failure("encoding the picture failed");
-  out.Write({reinterpret_cast<const char*>(png.data()), png.size()});
-  out.Commit();
+  WritePng(DrawSheet("what the camera saw, and what the character was told over the wire", figures,
+                     rig, moments),
+           out);
   for (const Figure& figure : figures)
     std::printf("  %-18s %s\n", figure.label.c_str(), figure.value.c_str());
+}
+
+void DrawSheetFile(const SheetOptions& options) {
+  if (!options.training.empty()) {
+    OutputFile out(options.out);
+    WritePng(SheetOfTraining(options.training, options.rows), out);
+    return;
+  }
+  if (options.recording.empty() || options.face.input.empty() || options.rig.empty())
+    throw app::BadInput("a RECORDING with --video and --rig is needed, or --training F.profile");
+  DrawRecording(options);
 }
 
 }  // namespace
@@ -143,13 +162,25 @@ void DrawSheetFile(const SheetOptions& options) {
 void AddSheet(CLI::App& facewire) {
   auto options = std::make_shared<SheetOptions>();
   CLI::App* command = facewire.add_subcommand(
-      "sheet", "Draw a contact sheet: moments of a video beside what the character was told");
+      "sheet",
+      "Draw a contact sheet: moments of a video beside what the character was told, or the rows of "
+      "a training set beside what the others predict");
+  CLI::Option* recording = command->add_option(
+      "RECORDING", options->recording, "What `facewire monitor --csv` wrote of the service's line");
+  CLI::Option* video =
+      command->add_option("--video", options->face.input, "The video that the service saw");
+  CLI::Option* rig = command->add_option("--rig", options->rig, "The rig that the service drove");
+  CLI::Option* training =
+      command
+          ->add_option("--training", options->training,
+                       "Instead of a recording: the profile whose example pairs to draw")
+          ->excludes(recording)
+          ->excludes(video)
+          ->excludes(rig);
   command
-      ->add_option("RECORDING", options->recording,
-                   "What `facewire monitor --csv` wrote of the service's line")
-      ->required();
-  command->add_option("--video", options->face.input, "The video that the service saw")->required();
-  command->add_option("--rig", options->rig, "The rig that the service drove")->required();
+      ->add_option("--rows", options->rows,
+                   "A:B, rows A to B of the training, from 1; else all, or the worst of too many")
+      ->needs(training);
   command->add_option("--out", options->out, "The PNG to write")->required();
   command->add_option("--moments", options->moments, "Rows of the sheet, at most")
       ->check(CLI::Range(1, 20))

@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,15 +30,15 @@ struct TrainOptions {
   bool average_user = false;
 };
 
-// "auto", or a number from `least` up.
-float ParseSetting(const char* option, const std::string& text, float automatic, float least) {
-  if (text == "auto") return automatic;
+// "auto", or a number from 0 up.
+float ParseSetting(const char* option, const std::string& text) {
+  if (text == "auto") return kAutomatic;
   float value = 0;
   const char* end = text.data() + text.size();
   const auto [parsed, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || parsed != end || !std::isfinite(value) || value < least)
-    throw app::BadInput(std::string(option) + ": \"" + text + "\" is neither auto nor a " +
-                        (least > 0 ? "positive number" : "number from 0 up"));
+  if (error != std::errc{} || parsed != end || !std::isfinite(value) || value < 0)
+    throw app::BadInput(std::string(option) + ": \"" + text +
+                        "\" is neither auto nor a number from 0 up");
   return value;
 }
 
@@ -49,12 +48,10 @@ retarget::RegionConfig ToDefaults(const TrainOptions& options) {
   region.axes = options.axes;
   region.rbf.kernel = ParseKernel(options.kernel, "--kernel: ");
   region.rbf.tail = ParseTail(options.tail, "--tail: ");
-  region.rbf.epsilon = ParseSetting("--epsilon", options.epsilon, rbf::RbfConfig{}.epsilon,
-                                    std::numeric_limits<float>::min());
-  region.rbf.smoothing = ParseSetting("--smoothing", options.smoothing, kAutomatic, 0);
+  region.rbf.epsilon = ParseEpsilon(options.epsilon, "--epsilon: ");
+  region.rbf.smoothing = ParseSetting("--smoothing", options.smoothing);
   region.nnls.ridge = region.rbf.smoothing;
-  region.rbf.tail_smoothing =
-      ParseSetting("--tail-smoothing", options.tail_smoothing, kAutomatic, 0);
+  region.rbf.tail_smoothing = ParseSetting("--tail-smoothing", options.tail_smoothing);
   return region;
 }
 
@@ -147,9 +144,11 @@ void AddTrain(CLI::App& facewire) {
                     "Take the inputs in so many principal axes (PCA; Pyun 2003, Deng 2006); 0: as "
                     "they are");
   train->add_option("--kernel", options->kernel,
-                    "multiquadric (the paper's), inverse-multiquadric, gaussian, linear or cubic");
+                    "multiquadric (the paper's), inverse-multiquadric, gaussian, linear, cubic or "
+                    "thin-plate");
   train->add_option("--epsilon", options->epsilon,
-                    "Shape of the kernel per cm, or auto: least leave-one-out error");
+                    "Shape of the kernel per cm; auto: least leave-one-out error; mean: 1 / mean "
+                    "distance of the rows");
   train->add_option("--smoothing", options->smoothing,
                     "0: through every sample; or auto: least leave-one-out error");
   train->add_option("--tail", options->tail, "none, constant or linear");

@@ -3,18 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "tools/sheet/canvas.h"
 #include "tools/sheet/character.h"
+#include "tools/sheet/head.h"
 #include "tools/sheet/overlay.h"
 
 namespace facewire::tools {
 namespace {
 
 // All lengths in pixels of the finished sheet.
-constexpr double kMargin = 28;
-constexpr double kHeadHeight = 170;
 constexpr double kRowHeight = 356;
 constexpr double kRowGap = 16;
 constexpr double kPictureWidth = 405;
@@ -29,13 +27,6 @@ constexpr std::size_t kBarRows = 12;
 constexpr double kBarColumns[] = {kBarsX, kBarsX + 394};
 constexpr double kLabelWidth = 156;
 constexpr double kTrackWidth = 128;
-constexpr double kSmall = 8.5;  // height of a capital in running text
-
-std::string Number(const char* format, double value) {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
 
 std::string ValueText(const Channel& channel, float value) {
   if (IsPosition(channel.kind)) return Number("%+.2f cm", static_cast<double>(value));
@@ -145,21 +136,6 @@ void DrawRow(const Rig& rig, const Moment& moment,
              {row.x + kBarColumns[column], row.y + kBarsTop + kBarPitch / 2}, *colours[kind],
              canvas);
     ++column;
-  }
-}
-
-void DrawHead(const std::string& title, std::span<const Figure> figures, Canvas& canvas) {
-  canvas.Text("facewire", {kMargin, 54}, 26, palette::kInk, Align::kLeft, true);
-  canvas.Text(title, {kMargin + Canvas::TextWidth("facewire", 26, true) + 22, 54}, 13,
-              palette::kMuted);
-  const std::size_t count = std::min(figures.size(), kMaxFigures);
-  const double width =
-      (kSheetWidthPx - 2 * kMargin) / static_cast<double>(std::max<std::size_t>(count, 1));
-  for (std::size_t i = 0; i < count; ++i) {
-    const double x = kMargin + width * static_cast<double>(i);
-    canvas.Box({x, 82, width - 10, 70}, 8, palette::kCard);
-    canvas.Text(figures[i].value, {x + 14, 116}, 17, palette::kInk, Align::kLeft, true);
-    canvas.Text(figures[i].label, {x + 14, 139}, kSmall, palette::kMuted);
   }
 }
 

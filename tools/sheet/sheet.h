@@ -10,10 +10,9 @@
 #include "core/landmarks.h"
 #include "core/rig/rig.h"
 #include "core/rig_pose.h"
+#include "tools/sheet/head.h"
 
 namespace facewire::tools {
-
-inline constexpr int kSheetWidthPx = 1600;
 
 // One row of a contact sheet: what the camera saw, and what the character was told at that frame.
 struct Moment {
@@ -24,13 +23,6 @@ struct Moment {
   Landmarks landmarks;      // of the picture; count 0 = no face
   RigPose pose;
 };
-
-// A figure for the head of a sheet: {"24.0", "frames a second"}. At most kMaxFigures are drawn.
-struct Figure {
-  std::string value;
-  std::string label;
-};
-inline constexpr std::size_t kMaxFigures = 8;
 
 // Draws a contact sheet, kSheetWidthPx wide and as high as the moments need: title and figures on
 // top, then a row for each moment: the picture with its landmarks, the character, and bars for the

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 #include <vector>
 
 namespace facewire::rbf {
@@ -30,18 +31,49 @@ TEST(LinearSolver, SolvesASystemThatNeedsPivoting) {
   for (std::size_t i = 0; i < b.size(); ++i) EXPECT_NEAR(b[i], expected[i], 1e-12);
 }
 
-TEST(LinearSolver, InverseDiagonalAgreesWithSolvingForUnitVectors) {
-  const std::size_t n = 12;
+// Sizes around the panels that are eliminated together, and around the product's tiles.
+constexpr std::size_t kSizes[] = {1, 2, 5, 12, 31, 32, 33, 64, 97, 131};
+
+std::vector<double> Wild(std::size_t n) {
+  std::minstd_rand random(static_cast<unsigned>(n));
+  std::uniform_real_distribution<double> uniform(-1, 1);
   std::vector<double> a(n * n);
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] = std::sin(1.7 * static_cast<double>(i * i));
-  Factorised f(a, n);
-  ASSERT_TRUE(f.result);
-  std::vector<double> work(n);
-  for (std::size_t k = 0; k < n; ++k) {
-    std::vector<double> unit(n, 0.0);
-    unit[k] = 1;
-    f.solver.Solve(unit, 1);
-    EXPECT_NEAR(f.solver.InverseDiagonal(k, work), unit[k], 1e-9) << k;
+  for (double& value : a) value = uniform(random);
+  return a;
+}
+
+TEST(LinearSolver, SolvesSystemsOfAnySizeForAnyNumberOfColumns) {
+  for (const std::size_t n : kSizes) {
+    for (const std::size_t columns : {1U, 3U, 8U}) {
+      const std::vector<double> a = Wild(n);
+      Factorised f(a, n);
+      ASSERT_TRUE(f.result) << n;
+      std::vector<double> b(n * columns);
+      for (std::size_t i = 0; i < b.size(); ++i) b[i] = std::cos(static_cast<double>(i * i));
+      std::vector<double> x = b;
+      f.solver.Solve(x, columns);
+      for (std::size_t row = 0; row < n; ++row) {
+        for (std::size_t c = 0; c < columns; ++c) {
+          double sum = 0;
+          for (std::size_t k = 0; k < n; ++k) sum += a[row * n + k] * x[k * columns + c];
+          EXPECT_NEAR(sum, b[row * columns + c], 1e-8) << n << " " << row << " " << c;
+        }
+      }
+    }
+  }
+}
+
+TEST(LinearSolver, InverseDiagonalAgreesWithSolvingForUnitVectors) {
+  for (const std::size_t n : kSizes) {
+    Factorised f(Wild(n), n);
+    ASSERT_TRUE(f.result);
+    std::vector<double> inverse(n * n, 0.0);
+    for (std::size_t k = 0; k < n; ++k) inverse[k * n + k] = 1;
+    f.solver.Solve(inverse, n);
+    std::vector<double> diagonal(n);
+    f.solver.TakeInverseDiagonal(diagonal);
+    for (std::size_t k = 0; k < n; ++k)
+      EXPECT_NEAR(diagonal[k], inverse[k * n + k], 1e-8 * (1 + std::abs(diagonal[k]))) << n;
   }
 }
 

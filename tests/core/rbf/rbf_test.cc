@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/core/rbf/golden.h"
+#include "tests/core/rbf/golden_name.h"
 
 namespace facewire::rbf {
 namespace {
@@ -46,34 +47,30 @@ Context ContextOf(const golden::Case& example) {
   return c;
 }
 
-TEST(Rbf, AgreesWithValuesComputedIndependently) {
-  for (const golden::Case& expected : golden::kCases) {
-    Context c = ContextOf(expected);
-    SCOPED_TRACE(testing::Message()
-                 << "kernel " << static_cast<int>(expected.kernel) << " tail "
-                 << static_cast<int>(expected.tail) << " smoothing " << expected.smoothing);
-    ASSERT_TRUE(c.Fit());
-    for (std::size_t place = 0; place < 2; ++place) {
-      const auto y = c.At({golden::kAt[2 * place], golden::kAt[2 * place + 1]});
-      for (std::size_t o = 0; o < 2; ++o) {
-        const float value = expected.values[2 * place + o];
-        EXPECT_NEAR(y[o], value, 2e-4F * (1 + std::abs(value)));
-      }
+class RbfGolden : public testing::TestWithParam<golden::Case> {};
+
+TEST_P(RbfGolden, FloatAgreesWithValuesComputedIndependently) {
+  Context c = ContextOf(GetParam());
+  ASSERT_TRUE(c.Fit());
+  for (std::size_t place = 0; place < golden::kAt.size() / 2; ++place) {
+    const auto y = c.At({golden::kAt[2 * place], golden::kAt[2 * place + 1]});
+    for (std::size_t o = 0; o < 2; ++o) {
+      const double value = GetParam().values[2 * place + o];
+      EXPECT_NEAR(y[o], value, 1e-4 * (1 + std::abs(value)));
     }
   }
 }
 
-TEST(Rbf, RippasFormulaEqualsLeavingASampleOut) {
-  for (const golden::Case& expected : golden::kCases) {
-    Context c = ContextOf(expected);
-    ASSERT_TRUE(c.Fit());
-    // The tail's inputs count from the samples' mean, which leaving one out would move; only a
-    // damped linear tail can tell, and there the golden value keeps the mean too.
-    for (std::size_t o = 0; o < 2; ++o)
-      EXPECT_NEAR(c.errors[2 * 3 + o], expected.leave_one_out[o],
-                  1e-4F * (1 + std::abs(expected.leave_one_out[o])));
+TEST_P(RbfGolden, RippasFormulaEqualsLeavingASampleOut) {
+  Context c = ContextOf(GetParam());
+  ASSERT_TRUE(c.Fit());
+  for (std::size_t o = 0; o < 2; ++o) {
+    const double value = GetParam().leave_one_out[o];
+    EXPECT_NEAR(c.errors[2 * golden::kLeftOut + o], value, 1e-6 * (1 + std::abs(value)));
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Scipy, RbfGolden, testing::ValuesIn(golden::kCases), golden::NameOf);
 
 TEST(Rbf, TwoSamplesOnALineMatchTheFormulaByHand) {
   // H = [1 p; p 1] with p = sqrt(1 + 1) for r = 1, T = (0, 1): w = (-p, 1) / (1 - p^2) = (p, -1).
@@ -87,8 +84,9 @@ TEST(Rbf, TwoSamplesOnALineMatchTheFormulaByHand) {
 }
 
 TEST(Rbf, PassesThroughEverySampleWithoutSmoothing) {
-  for (const Kernel kernel : {Kernel::kMultiquadric, Kernel::kInverseMultiquadric,
-                              Kernel::kGaussian, Kernel::kLinear, Kernel::kCubic}) {
+  for (const Kernel kernel :
+       {Kernel::kMultiquadric, Kernel::kInverseMultiquadric, Kernel::kGaussian, Kernel::kLinear,
+        Kernel::kCubic, Kernel::kThinPlate}) {
     Context c;
     c.config = {.kernel = kernel, .epsilon = 1.5F};
     c.samples = {0, 0, 1, 0, 0, 1, 1, 1, 0.4F, 0.7F};
@@ -146,6 +144,47 @@ TEST(Rbf, SmoothingReconcilesTwoSamplesInTheSamePlace) {
   c.targets = {0, 1, 2, 3, 2};
   ASSERT_TRUE(c.Fit());
   EXPECT_NEAR(c.At({1})[0], 1.5F, 0.1);
+}
+
+// Five samples, the last a little beside the first, not the same floats, and with another target.
+Context NearDuplicates(float apart) {
+  Context c;
+  c.config.epsilon = 1;
+  c.samples = {0, 0, 1, 0, 0, 1, 1, 1, apart, 0};
+  c.targets = {0, 1, 2, 3, 1};
+  c.inputs = 2;
+  return c;
+}
+
+TEST(Rbf, NamesTwoSamplesThatAreTooNearEachOtherToTellApart) {
+  for (const float apart : {1e-9F, 1e-7F, 1e-5F}) {
+    for (const Kernel kernel :
+         {Kernel::kMultiquadric, Kernel::kInverseMultiquadric, Kernel::kGaussian, Kernel::kLinear,
+          Kernel::kCubic, Kernel::kThinPlate}) {
+      SCOPED_TRACE(testing::Message() << apart << ", kernel " << static_cast<int>(kernel));
+      Context c = NearDuplicates(apart);
+      c.config.kernel = kernel;
+      const auto result = c.Fit();
+      ASSERT_FALSE(result);
+      EXPECT_EQ(result.error(), Errc::kSingular);
+      EXPECT_EQ(c.report.duplicate_first, 0U);
+      EXPECT_EQ(c.report.duplicate_second, 4U);
+    }
+  }
+}
+
+TEST(Rbf, AutomaticEpsilonDoesNotHideNearDuplicates) {
+  Context c = NearDuplicates(1e-9F);
+  c.config.epsilon = kAutomaticEpsilon;
+  ASSERT_FALSE(c.Fit());
+  EXPECT_EQ(c.report.duplicate_second, 4U);
+}
+
+TEST(Rbf, SmoothingReconcilesSamplesThatNearlyTouch) {
+  Context c = NearDuplicates(1e-5F);
+  c.config.smoothing = 0.01F;
+  ASSERT_TRUE(c.Fit());
+  EXPECT_NEAR(c.At({0, 0})[0], 0.5F, 0.1);
 }
 
 TEST(Rbf, NamesTheSampleThatBecomesDependentWhenTheKernelIsTooFlat) {
@@ -212,7 +251,7 @@ TEST(Rbf, TheChosenEpsilonIsNotWorseThanItsNeighboursByLeaveOneOut) {
   for (int i = 0; i < 15; ++i) {
     const float x = static_cast<float>(i) / 14;
     c.samples.push_back(x);
-    c.targets.push_back(std::exp(-30 * (x - 0.4F) * (x - 0.4F)));
+    c.targets.push_back(std::exp(-200 * (x - 0.4F) * (x - 0.4F)));
   }
   const auto error_at = [&](float epsilon) {
     c.config.epsilon = epsilon;
@@ -225,6 +264,49 @@ TEST(Rbf, TheChosenEpsilonIsNotWorseThanItsNeighboursByLeaveOneOut) {
   const float chosen = c.report.epsilon;
   EXPECT_LE(automatic, error_at(chosen * 1.5F));
   EXPECT_LE(automatic, error_at(chosen / 1.5F));
+}
+
+TEST(Rbf, AutomaticEpsilonIsNeverAFunctionThatFloatCannotCarry) {
+  // A smooth function: the flatter the kernel, the less its leave-one-out error, until nothing but
+  // rounding is left. The search has to stop before that, wherever its range ends.
+  for (const Kernel kernel :
+       {Kernel::kMultiquadric, Kernel::kInverseMultiquadric, Kernel::kGaussian}) {
+    Context c;
+    c.config.kernel = kernel;
+    for (int i = 0; i < 12; ++i) {
+      c.samples.push_back(static_cast<float>(i) / 11);
+      c.targets.push_back(c.samples.back() * c.samples.back());
+    }
+    ASSERT_TRUE(c.Fit()) << static_cast<int>(kernel);
+    for (std::size_t s = 0; s < c.samples.size(); ++s)
+      EXPECT_NEAR(c.At({c.samples[s]})[0], c.targets[s], 1e-3);
+    EXPECT_NEAR(c.At({0.48F})[0], 0.48F * 0.48F, 1e-2);
+  }
+}
+
+TEST(Rbf, MeanDistanceIsTheMeanOverAllPairsOfSamples) {
+  Context c = ContextOf(golden::kCases[0]);
+  c.config.epsilon = kMeanDistanceEpsilon;
+  ASSERT_TRUE(c.Fit());
+  EXPECT_NEAR(c.report.epsilon, 1 / golden::kMeanDistance, 1e-6);
+}
+
+TEST(Rbf, EpsilonOnlyRescalesAThinPlateWithALinearTail) {
+  Context c = ContextOf(golden::kCases[0]);
+  c.config = {.kernel = Kernel::kThinPlate, .tail = Tail::kLinear, .epsilon = 0.5F};
+  ASSERT_TRUE(c.Fit());
+  const float narrow = c.At({0.3F, 0.4F})[0];
+  c.config.epsilon = 2;
+  ASSERT_TRUE(c.Fit());
+  EXPECT_NEAR(c.At({0.3F, 0.4F})[0], narrow, 1e-5);
+}
+
+TEST(Rbf, AThinPlateIsFlatAtItsOwnSample) {
+  Context c = ContextOf(golden::kCases[0]);
+  c.config = {.kernel = Kernel::kThinPlate, .tail = Tail::kLinear, .epsilon = 1};
+  ASSERT_TRUE(c.Fit());
+  for (const float step : {0.0F, 1e-30F, 1e-12F, 1e-6F})
+    EXPECT_NEAR(c.At({c.samples[0] + step, c.samples[1]})[0], c.targets[0], 1e-4) << step;
 }
 
 TEST(Rbf, FitsAgainInTheSameMemoryWithFewerSamples) {

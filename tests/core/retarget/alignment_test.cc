@@ -40,6 +40,16 @@ TEST(Align, WithoutEyesOrChinTheSpreadGivesTheScale) {
   EXPECT_NEAR(alignment->scale.y, 3, 1e-5);
 }
 
+TEST(Align, ACyclopsWithItsEyesAMillimetreApartIsScaledByTheSpread) {
+  auto target = kSource;
+  target[0].x = -0.05F;
+  target[1].x = 0.05F;
+  const auto alignment = Align(kSource, target, kFace);
+  ASSERT_TRUE(alignment);
+  EXPECT_GT(alignment->scale.x, 0.5F);
+  EXPECT_FLOAT_EQ(alignment->scale.y, 1);
+}
+
 TEST(Align, OnePointIsMovedWithoutScaling) {
   const std::vector<Point3> source = {{1, 2, 3}};
   const std::vector<Point3> target = {{4, 4, 4}};

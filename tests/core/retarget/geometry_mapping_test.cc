@@ -47,7 +47,7 @@ TEST(GeometryMapping, FollowsASmoothWarpBetweenTheSamplesToo) {
   for (const Point3 p : source) {
     if (std::abs(p.x) == 6 || std::abs(p.y) == 8) continue;
     for (const Point3 motion : {Point3{1, 0, 0}, Point3{0, -1, 0}, Point3{0, 0, 0.5F}}) {
-      const Point3 mapped = c.mapping.Map(p + motion) - c.mapping.Map(p);
+      const Point3 mapped = c.mapping.Motion(c.mapping.AnchorAt(p), p + motion);
       const Point3 exact = Warp(p + motion) - Warp(p);
       const Point3 error = mapped - exact;
       EXPECT_LT(std::sqrt(Dot(error, error)), 0.2F)
@@ -65,8 +65,8 @@ TEST(GeometryMapping, ALidThatReachesTheOtherLidLandsOnTheTargetsOtherLid) {
   target.insert(target.end(), {Point3{3, 4.0F, 4}, Point3{3, 2.2F, 4}});  // larger eyes
   Context c;
   ASSERT_TRUE(c.Solve(source, target));
-  const Point3 closed = c.mapping.Map(lower) - c.mapping.Map(upper) + Point3{3, 4.0F, 4};
-  EXPECT_NEAR(closed.y, 2.2F, 0.1F);
+  const Point3 closed = Point3{3, 4.0F, 4} + c.mapping.Motion(c.mapping.AnchorAt(upper), lower);
+  EXPECT_NEAR(closed.y, 2.2F, 0.12F) << "the gap doubled, and nothing around it did";
 }
 
 TEST(GeometryMapping, LipsThatTouchDoNotTearSpaceApart) {
@@ -76,14 +76,14 @@ TEST(GeometryMapping, LipsThatTouchDoNotTearSpaceApart) {
   target.insert(target.end(), {Point3{0, -3.9F, 5}, Point3{0, -4.1F, 5}});
   Context c;
   ASSERT_TRUE(c.Solve(source, target));
-  const Point3 moved = c.mapping.Map({0, -5.02F, 5}) - c.mapping.Map({0, -4.02F, 5});
+  const Point3 moved = c.mapping.Motion(c.mapping.AnchorAt({0, -4.02F, 5}), {0, -5.02F, 5});
   EXPECT_NEAR(moved.y, -1, 0.3F);
 }
 
 TEST(GeometryMapping, OnePointMovesAsThePerformerDoes) {
   Context c;
   ASSERT_TRUE(c.Solve({{1, 2, 3}}, {{0, 0, 0}}));
-  const Point3 moved = c.mapping.Map({1, 1, 3}) - c.mapping.Map({1, 2, 3});
+  const Point3 moved = c.mapping.Motion(c.mapping.AnchorAt({1, 2, 3}), {1, 1, 3});
   EXPECT_NEAR(moved.x, 0, 0.05);
   EXPECT_NEAR(moved.y, -1, 0.05);
 }

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 namespace facewire::retarget {
@@ -108,6 +110,129 @@ TEST(NeutralCapture, AHeadThatKeepsTurningIsRefused) {
     c.capture.Add(*face);
   }
   EXPECT_EQ(c.capture.Finish().error(), Errc::kRejected);
+}
+
+// A face of which lids, lips and head are as the test says, otherwise the one above.
+std::unique_ptr<FacePose> Performer(int frame, float lids, float lips = 0.1F, float yaw_deg = 0) {
+  auto face = Face(frame);
+  for (const auto& [outer, inner, upper, lower] :
+       {std::array{33, 133, 159, 145}, std::array{263, 362, 386, 374}}) {
+    face->points_cm[outer] = {0, 0, 0};
+    face->points_cm[inner] = {3, 0, 0};
+    face->points_cm[upper] = {1.5F, 3 * lids, 0};
+    face->points_cm[lower] = {1.5F, 0, 0};
+  }
+  face->points_cm[78] = {-2, 0, 0};
+  face->points_cm[308] = {2, 0, 0};
+  face->points_cm[13] = {0, 0, 0};
+  face->points_cm[14] = {0, -4 * lips, 0};
+  const float yaw = yaw_deg * std::numbers::pi_v<float> / 180;
+  face->camera_R_head = {std::cos(yaw),  0, std::sin(yaw), 0, 1, 0,
+                         -std::sin(yaw), 0, std::cos(yaw)};
+  return face;
+}
+
+using Kind = Unrest::Kind;
+
+TEST(StillSecond, IsTakenFromAFaceThatHoldsStill) {
+  Context c(kStillSecond);
+  for (int i = 0; i < 30; ++i) {
+    c.capture.Add(*Performer(i, 0.3F));
+    EXPECT_EQ(c.capture.Finish().error(), Errc::kNotReady) << i;
+  }
+  c.capture.Add(*Performer(30, 0.3F));
+  EXPECT_TRUE(c.capture.Finish());
+  EXPECT_EQ(c.capture.unrest().kind, Kind::kNone);
+}
+
+// What is wrong shows as a number that a person can do something with.
+TEST(StillSecond, SaysWhatMovedAndHowMuch) {
+  struct Row {
+    const char* name;
+    std::unique_ptr<FacePose> (*face)(int frame);
+    Kind kind;
+    float measure;
+  };
+  const Row table[] = {
+      {"one blink of 0.1 s", [](int i) { return Performer(i, i >= 12 && i < 15 ? 0.06F : 0.3F); },
+       Kind::kEyesClosed, 0.8F},
+      {"a blink of somebody whose lids hang",
+       [](int i) { return Performer(i, i == 12 ? 0.06F : 0.15F); }, Kind::kEyesClosed, 0.6F},
+      {"opens the eyes late", [](int i) { return Performer(i, i < 20 ? 0.12F : 0.3F); },
+       Kind::kEyesClosed, 0.6F},
+      {"eyes closed throughout", [](int i) { return Performer(i, 0.05F); }, Kind::kEyesClosed, 1},
+      {"lips apart", [](int i) { return Performer(i, 0.3F, 0.3F); }, Kind::kMouthOpen, 0.3F},
+      {"turns slowly by 12 degrees",
+       [](int i) { return Performer(i, 0.3F, 0.1F, 0.4F * static_cast<float>(i)); },
+       Kind::kHeadTurned, 6},
+      {"leans by 4 cm",
+       [](int i) {
+         auto face = Performer(i, 0.3F);
+         face->camera_t_head_cm.z += 4.0F * static_cast<float>(i) / 30;
+         return face;
+       },
+       Kind::kHeadMoved, 2},
+      {"says one word",
+       [](int i) {
+         auto face = Performer(i, 0.3F);
+         for (std::size_t p = 180; p < 250 && i > 24; ++p) face->points_cm[p].y -= 0.5F;
+         return face;
+       },
+       Kind::kFaceMoved, 0.5F},
+  };
+  for (const Row& row : table) {
+    Context c(kStillSecond);
+    for (int i = 0; i <= 30; ++i) c.capture.Add(*row.face(i));
+    EXPECT_EQ(c.capture.Finish().error(), Errc::kRejected) << row.name;
+    EXPECT_EQ(c.capture.unrest().kind, row.kind) << row.name;
+    EXPECT_NEAR(c.capture.unrest().measure, row.measure, 0.05F) << row.name;
+  }
+}
+
+TEST(StillSecond, TakesPeopleAsTheyAreAndJitterAsItIs) {
+  Context c(kStillSecond);
+  for (int i = 0; i <= 30; ++i) {
+    const float wave = std::sin(static_cast<float>(i));
+    auto face = Performer(i, 0.14F + 0.02F * wave, 0.15F, wave);  // hanging lids, parted lips
+    for (std::size_t p = 0; p < face->count; ++p) face->points_cm[p].z += 0.1F * wave;
+    c.capture.Add(*face);
+  }
+  EXPECT_TRUE(c.capture.Finish()) << static_cast<int>(c.capture.unrest().kind) << " by "
+                                  << c.capture.unrest().measure;
+}
+
+TEST(StillSecond, ComesAsSoonAsTheBlinkIsBehindTheWindow) {
+  Context c(kStillSecond);
+  int taken_at = 0;
+  for (int i = 0; i < 200 && taken_at == 0; ++i) {
+    c.capture.Add(*Performer(i, i >= 10 && i < 14 ? 0.05F : 0.3F));
+    if (c.capture.progress() < 1) continue;
+    if (c.capture.Finish()) {
+      taken_at = i;
+    } else {
+      c.capture.Slide();
+    }
+  }
+  EXPECT_EQ(taken_at, 45) << "half a second after the first try";
+}
+
+TEST(StillSecond, NeedsAFewFramesHoweverSlowTheCamera) {
+  Context c(kStillSecond);
+  for (int i = 0; i < 7; ++i) {
+    c.capture.Add(*Performer(10 * i, 0.3F));  // three frames a second
+    EXPECT_EQ(c.capture.Finish().error(), Errc::kNotReady);
+  }
+  c.capture.Add(*Performer(70, 0.3F));
+  EXPECT_TRUE(c.capture.Finish());
+}
+
+TEST(NeutralCapture, StartsOverByOtherRules) {
+  Context c;
+  for (int i = 0; i <= 60; ++i) c.capture.Add(*Face(i));
+  ASSERT_TRUE(c.capture.Use(kStillSecond));
+  EXPECT_EQ(c.capture.progress(), 0);
+  EXPECT_EQ(c.capture.Use({.still_part = 1.1F}).error(), Errc::kOutOfRange);
+  EXPECT_EQ(c.capture.config().still_part, 1) << "as before";
 }
 
 TEST(NeutralCapture, AHighFrameRateThatOverflowsTheMemoryIsThinnedOut) {

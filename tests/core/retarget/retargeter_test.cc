@@ -92,6 +92,21 @@ TEST(Retargeter, DrivesAddUpToTheirChannel) {
   EXPECT_NEAR(pose.values[2], 2 + 20 + 5, 1);
 }
 
+TEST(Retargeter, AChannelAnswersToItsSumAsItsResponseSays) {
+  Context c;
+  Channel& pitch = c.rig.channels[2];
+  pitch.response.gain = 2;
+  pitch.response.bias = 3;
+  Channel& jaw = c.rig.channels[1];
+  jaw.response.gain = -1;
+  ASSERT_TRUE(c.Configure());
+  ASSERT_TRUE(c.retargeter.SetNeutral(NeutralOf(*Face(0, 0))));
+  EXPECT_NEAR(c.retargeter.Update(*Face(0, 0)).values[2], 2 + 3, 1) << "a neutral face: the bias";
+  const RigPose pose = c.retargeter.Update(*Face(1, 0.5F));
+  EXPECT_NEAR(pose.values[2], 2 + 2 * (10 + 5) + 3, 2);
+  EXPECT_GT(pose.values[1], 0.2F) << "a bone that follows its landmark, the other way round";
+}
+
 TEST(Retargeter, APerformerWithAnotherFaceIsTakenToTheAverage) {
   Context c;
   ASSERT_TRUE(c.Configure());

@@ -24,8 +24,15 @@ Bytes EncodeToBytes(Encoder& encoder, const Message& message) {
 std::vector<Message> OneOfEach() {
   Pose pose{.rig_id = 5, .frame_seq = 6, .captured = Time(Duration(7))};
   (void)pose.values.try_resize(3);
-  return {RigHeader{},       BoneDescription{}, ChannelDescription{}, pose, Status{},
-          Acknowledgement{}, Command{}};
+  return {RigHeader{},
+          BoneDescription{},
+          ChannelDescription{},
+          pose,
+          Status{},
+          Acknowledgement{},
+          Acknowledgement{.result = CommandResult::kHeadTurned},
+          Command{},
+          Command{.code = CommandCode::kBlendProfile}};
 }
 
 // The bytes in core/wire/README.md, "Examples".
@@ -34,6 +41,21 @@ TEST(Encoder, TheExampleOfTheSpecificationIsWhatItWrites) {
   const Bytes example = MakeBytes(
       {0x00, 0x03, 0x01, 0x80, 0x01, 0x02, 0x01, 0x06, 0x01, 0xB3, 0x9A, 0x6E, 0x53, 0x00});
   EXPECT_EQ(EncodeToBytes(encoder, Command{.id = 1, .code = CommandCode::kPing}), example);
+}
+
+// Hosts of before the value was there must read the old commands as ever.
+TEST(Encoder, OnlyCommandsThatTakeAValueAndResultsThatHaveAMeasureGrow) {
+  Encoder encoder;
+  for (int code = 1; code <= 6; ++code) {
+    const Command command{.code = static_cast<CommandCode>(code), .value = 1};
+    EXPECT_EQ(EncodeToBytes(encoder, command).size(), MaxFrameBytes(3)) << code;
+  }
+  EXPECT_EQ(EncodeToBytes(encoder, Command{.code = CommandCode::kBlendProfile}).size(),
+            MaxFrameBytes(7));
+  for (int result = 0; result <= 9; ++result) {
+    const Acknowledgement answer{.result = static_cast<CommandResult>(result), .measure = 1};
+    EXPECT_EQ(EncodeToBytes(encoder, answer).size(), MaxFrameBytes(result < 5 ? 12 : 16)) << result;
+  }
 }
 
 TEST(Encoder, EveryMessageFitsABufferOfExactlyItsSizeAndNoneSmaller) {
@@ -123,10 +145,13 @@ TEST(Encoder, NumbersThatAreNotFiniteAreRefusedAndTakeNoSequenceNumber) {
   for (float bad : {kNan, kInfinity, -kInfinity}) {
     std::array<std::byte, 128> out;
     Encoder encoder;
-    const auto refused = {encoder.Encode(BoneDescription{.rest_cm = {0, bad, 0}}, out),
-                          encoder.Encode(ChannelDescription{.neutral = bad}, out),
-                          encoder.Encode(ChannelDescription{.min = bad}, out),
-                          encoder.Encode(ChannelDescription{.max = bad}, out)};
+    const auto refused = {
+        encoder.Encode(BoneDescription{.rest_cm = {0, bad, 0}}, out),
+        encoder.Encode(ChannelDescription{.neutral = bad}, out),
+        encoder.Encode(ChannelDescription{.min = bad}, out),
+        encoder.Encode(ChannelDescription{.max = bad}, out),
+        encoder.Encode(Command{.code = CommandCode::kBlendProfile, .value = bad}, out),
+        encoder.Encode(Acknowledgement{.result = CommandResult::kMouthOpen, .measure = bad}, out)};
     for (const auto& frame : refused) {
       ASSERT_FALSE(frame);
       EXPECT_EQ(frame.error(), Errc::kInvalidArgument);

@@ -80,9 +80,11 @@ struct AddFields {
   void operator()(const Acknowledgement& m) const {
     o.Text("type", "acknowledgement").Int("id", m.id).Int("code", static_cast<int>(m.code));
     o.Int("result", static_cast<int>(m.result)).At("now_us", m.now);
+    if (HasMeasure(m.result)) o.Float("measure", m.measure);
   }
   void operator()(const Command& m) const {
     o.Text("type", "command").Int("id", m.id).Int("code", static_cast<int>(m.code));
+    if (TakesValue(m.code)) o.Float("value", m.value);
   }
 };
 

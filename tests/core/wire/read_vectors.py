@@ -18,6 +18,8 @@ MAX_INSIDE = 1024  # header, payload and CRC
 MAX_BONES, MAX_CHANNELS, MAX_NAME = 48, 192, 31
 KINDS = ["parameter", "position_x", "position_y", "position_z", "pitch", "yaw", "roll"]
 FAULT = 7
+CODES_WITH_VALUE = {7}
+RESULTS_WITH_MEASURE = range(5, 10)
 
 
 class Malformed(Exception):
@@ -91,12 +93,17 @@ def read_status(p):
 
 
 def read_acknowledgement(p):
-    return {"type": "acknowledgement", **dict(zip(["id", "code", "result", "now_us"],
-                                                  p.take("HBBq")))}
+    message = dict(zip(["id", "code", "result", "now_us"], p.take("HBBq")))
+    if message["result"] in RESULTS_WITH_MEASURE:
+        message["measure"] = p.take("f")
+    return {"type": "acknowledgement", **message}
 
 
 def read_command(p):
-    return {"type": "command", **dict(zip(["id", "code"], p.take("HB")))}
+    message = dict(zip(["id", "code"], p.take("HB")))
+    if message["code"] in CODES_WITH_VALUE:
+        message["value"] = p.take("f")
+    return {"type": "command", **message}
 
 
 READERS = {0x01: read_rig_header, 0x02: read_bone, 0x03: read_channel, 0x10: read_pose,

@@ -160,6 +160,14 @@ void AddMessages(std::vector<Vector>& all) {
                       .code = CommandCode::kCalibrateNeutral,
                       .result = CommandResult::kNoFace,
                       .now = Time(Duration(5'000'000))});
+  add("acknowledgement_measure", "A calibration that was refused: the head turned by 8.25 degrees",
+      Acknowledgement{.id = 514,
+                      .code = CommandCode::kCalibrateNeutral,
+                      .result = CommandResult::kHeadTurned,
+                      .now = Time(Duration(6'000'000)),
+                      .measure = 8.25F});
+  add("command_value", "Three quarters of the personal profile",
+      Command{.id = 7, .code = CommandCode::kBlendProfile, .value = 0.75F});
   Line host;
   Bytes commands;
   for (int code = 1; code <= 6; ++code) {
@@ -283,6 +291,9 @@ void AddDamage(std::vector<Vector>& all) {
     add(name, about, RawFrame(kVersion, type, 0, payload));
   };
   malformed("malformed_short", "A command without its code", 0x80, MakeBytes({1, 0}));
+  malformed("malformed_value", "A blend without its value", 0x80, MakeBytes({1, 0, 7}));
+  malformed("malformed_value_nan", "A blend that is not a number", 0x80,
+            MakeBytes({1, 0, 7, 0, 0, 0xC0, 0x7F}));
   malformed("malformed_pose_short", "A pose that promises two values and holds one", 0x10,
             Bytes(20, std::byte{0}) + MakeBytes({2, 2, 0x11, 0x22}));
   malformed("malformed_pose_count", "A pose of 193 channels", 0x10,

@@ -159,6 +159,22 @@ TEST(Train, TheMethodIsTheRegionsOwn) {
   EXPECT_NEAR(c.At({{0, -1, 0}, {3, 3, 0}})[0], 10, 1e-2);
 }
 
+TEST(Train, TakesTheMeanDistanceFromTheCommandLineAndFromARegion) {
+  Context c;
+  c.Train({"--epsilon", "mean"});
+  const float mean = app::ReadTrainingSet(c.Out()).regions[0].rbf.epsilon;
+  EXPECT_GT(mean, 0);
+  const auto regions = c.scratch.Write("r.toml",
+                                       "[[region]]\nname = \"face\"\n"
+                                       "points = [\"lip\", \"lid\"]\n"
+                                       "targets = [\"jaw_deg\", \"blink\"]\nepsilon = \"mean\"\n"
+                                       "kernel = \"thin-plate\"\ntail = \"constant\"\n");
+  c.Train({"--regions", regions.string(), "--epsilon", "0.5"});
+  const app::TrainingSet read = app::ReadTrainingSet(c.Out());
+  EXPECT_NEAR(read.regions[0].rbf.epsilon, mean, 1e-6);
+  EXPECT_EQ(read.regions[0].rbf.kernel, rbf::Kernel::kThinPlate);
+}
+
 TEST(Train, RegionsKeepTheirMarkersApart) {
   Context c;
   const auto regions = c.scratch.Write("r.toml",
@@ -188,7 +204,7 @@ TEST(Train, BadInputIsOneLineAndLeavesNothing) {
               HasSubstr("rows 2 and 4 have the same markers"));
   EXPECT_THAT(with(nullptr, nullptr, {"--kernel", "sinc"}), HasSubstr("one of multiquadric"));
   EXPECT_THAT(with(nullptr, nullptr, {"--tail", "cubic"}), HasSubstr("one of none, constant"));
-  EXPECT_THAT(with(nullptr, nullptr, {"--epsilon", "-1"}), HasSubstr("neither auto nor"));
+  EXPECT_THAT(with(nullptr, nullptr, {"--epsilon", "-1"}), HasSubstr("neither auto nor mean nor"));
   EXPECT_THAT(with(nullptr, nullptr, {"--smoothing", "-1"}), HasSubstr("--smoothing: "));
   EXPECT_THAT(with(nullptr, nullptr, {"--neutral", "6"}), HasSubstr("rows 1 to 5"));
   EXPECT_THAT(with(nullptr, nullptr, {"--tail-smoothing", "0"}), HasSubstr("linear tail"));

@@ -1,0 +1,94 @@
+#include "app/answer_text.h"
+
+#include <cstdio>
+
+namespace facewire::app {
+namespace {
+
+using wire::CommandCode;
+using wire::CommandResult;
+
+const char* DoneText(CommandCode code) noexcept {
+  switch (code) {
+    case CommandCode::kCalibrateNeutral:
+      return "the neutral was taken, and is kept";
+    case CommandCode::kRelease:
+      return "released";
+    default:
+      return "done";
+  }
+}
+
+const char* RefusedText(CommandCode code) noexcept {
+  switch (code) {
+    case CommandCode::kCalibrateNeutral:
+      return "another calibration is running; wait for its end";
+    case CommandCode::kRelease:
+      return "the emergency stop's switch is still on; release it first";
+    case CommandCode::kBlendProfile:
+      return "there is no personal profile to blend in, or the part is not within 0 and 100 %";
+    default:
+      return "refused in the present state";
+  }
+}
+
+const char* FailedText(CommandCode code) noexcept {
+  return code == CommandCode::kCalibrateNeutral
+             ? "the neutral could not be used or not be stored; the service's journal says why"
+             : "failed";
+}
+
+// The measure stands where the %g is.
+const char* MeasureText(CommandResult result, float measure) noexcept {
+  switch (result) {
+    case CommandResult::kHeadTurned:
+      return "hold still: the head turned by %.0f degrees within the second";
+    case CommandResult::kHeadMoved:
+      return "hold still: the head moved by %.1f cm within the second";
+    case CommandResult::kFaceMoved:
+      return "keep the face still: it moved by %.1f cm within the second";
+    case CommandResult::kEyesClosed:
+      return measure < 1 ? "do not blink: an eye closed to %.2f of its way within the second"
+                         : "open the eyes: they were closed";
+    default:
+      return "close the mouth: the lips stand apart by %.2f of its width";
+  }
+}
+
+}  // namespace
+
+std::array<char, 160> AnswerText(const wire::Acknowledgement& answer) noexcept {
+  std::array<char, 160> text{};
+  const char* plain = nullptr;
+  switch (answer.result) {
+    case CommandResult::kOk:
+      plain = DoneText(answer.code);
+      break;
+    case CommandResult::kUnknown:
+      plain = "the device does not know this command; its facewired is older";
+      break;
+    case CommandResult::kRefused:
+      plain = RefusedText(answer.code);
+      break;
+    case CommandResult::kNoFace:
+      plain = "no face is seen; sit before the camera and look at it";
+      break;
+    case CommandResult::kFailed:
+      plain = FailedText(answer.code);
+      break;
+    default:
+      break;
+  }
+  if (plain != nullptr) {
+    (void)std::snprintf(text.data(), text.size(), "%s", plain);
+  } else if (wire::HasMeasure(answer.result)) {
+    (void)std::snprintf(text.data(), text.size(), MeasureText(answer.result, answer.measure),
+                        static_cast<double>(answer.measure));
+  } else {
+    (void)std::snprintf(text.data(), text.size(), "failed, with result %d",
+                        static_cast<int>(answer.result));
+  }
+  return text;
+}
+
+}  // namespace facewire::app

@@ -1,0 +1,51 @@
+"""Figure 3: expression mapping on exact markers: trained on one head, tested on others."""
+import numpy as np
+
+from evaluation import metrics
+from evaluation.commands import write_csv, write_markers, write_parameter_rig
+from evaluation.report import Row, Section
+
+# Options of `facewire train` for each method of the table.
+METHODS = {
+    "rbf": ["--tail", "linear", "--smoothing", "0.001", "--tail-smoothing", "0.001"],
+    "nnls": ["--method", "nnls"],
+    "pca": ["--axes", "40", "--tail", "linear", "--smoothing", "0.001", "--tail-smoothing", "0.001"],
+}
+# facts/retargeting.md: correlation, mean absolute error
+BASELINES = {"rbf": "plain .56 .095; linear tail 1.00 .0006", "nnls": "1.00 .0005", "pca": ""}
+NEUTRAL_FRAMES = 10
+
+
+def measure(context):
+    data, commands = context.data, context.commands
+    section = Section("Expression from exact markers", baselines=("facts",))
+    section.notes.append("Trained on neutral and 51 single poses of head E, tested on the recorded weights of heads A and B; "
+                         "mean over the shapes that exceed 0.25.")
+    training = data.json("synth/training_pairs_E.json.gz")
+    names, shapes = [f"L{i:02d}" for i in range(68)], training["names"]
+    markers = np.array([pair["markers"] for pair in training["pairs"]])
+    columns = [f"{n}_{axis}" for n in names for axis in "xyz"]
+    markers_csv = write_csv(commands.work / "exact_markers.csv", columns, markers.reshape(len(markers), -1))
+    targets_csv = write_csv(commands.work / "exact_targets.csv", shapes, [pair["weights"] for pair in training["pairs"]])
+    rig = write_parameter_rig(commands.work / "exact_rig.toml", shapes)
+    profile = commands.work / "exact.profile"
+    truth_names, truth = data.pair_weights()
+    truth = truth[:, [truth_names.index(s) for s in shapes]]
+    active = metrics.active(truth)
+    takes = {}
+    for person in "AB":
+        neutral, (_, points) = data.neutral_markers(person), data.pair_markers(person)
+        take = np.concatenate([np.repeat(neutral[None], NEUTRAL_FRAMES, 0), points])
+        takes[person] = write_markers(commands.work / f"exact_{person}.csv", names, take, 100)
+    for method, options in METHODS.items():
+        commands.facewire("train", "--markers", markers_csv, "--targets", targets_csv, "--average-user", "--out", profile,
+                          *options)
+        for person, take in takes.items():
+            poses = commands.retarget(take, rig, f"0:{NEUTRAL_FRAMES}", profile)
+            ours = metrics.hold(np.stack([poses[s] for s in shapes], 1))[NEUTRAL_FRAMES:]
+            section.rows.append(Row(f"{method}, {person}: correlation", metrics.correlations(ours, truth)[active].mean(),
+                                    (">=", 0.98), (BASELINES[method],)))
+            section.rows.append(Row(f"{method}, {person}: mean abs. error",
+                                    metrics.absolute_errors(ours, truth)[active].mean(), ("<=", 0.02), (BASELINES[method],),
+                                    digits=4))
+    return section
