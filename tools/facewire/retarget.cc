@@ -14,6 +14,7 @@
 #include "tools/facewire/commands.h"
 #include "tools/facewire/marker_layout.h"
 #include "tools/facewire/neutral_taker.h"
+#include "tools/facewire/novelty_report.h"
 #include "tools/facewire/performance.h"
 #include "tools/facewire/pose_writer.h"
 
@@ -87,6 +88,14 @@ class Character {
     }
   }
 
+  // What the profile's training lacks for the frames written so far.
+  std::vector<std::string> MissingPoses() const {
+    std::vector<std::string_view> names;
+    for (std::size_t r = 0; r < mapping().region_count(); ++r)
+      names.push_back(mapping().region_name(r));
+    return report_.Lines(names);
+  }
+
   void Write(const Moment& moment, PoseWriter& writer) {
     if (!moment.face) {
       was_lost_ = true;
@@ -94,6 +103,7 @@ class Character {
       return;
     }
     const RigPose wish = retargeter_.Update(*moment.face);
+    report_.Add(moment.frame, moment.t_us, retargeter_.novelty());
     // A face that appears is where it is; the speed limits hold from there.
     if (was_lost_) limiter_.Reset(wish);
     was_lost_ = false;
@@ -120,6 +130,7 @@ class Character {
   std::optional<Arena> arena_;
   retarget::Retargeter retargeter_;
   limit::Limiter limiter_;
+  NoveltyReport report_;
   bool was_lost_ = true;
 };
 
@@ -165,6 +176,8 @@ void Retarget(const RetargetOptions& options) {
       last_us > 0 ? 1e6 * static_cast<double>(frames - 1) / static_cast<double>(last_us) : 0;
   std::fprintf(stderr, "facewire retarget: %zu frames, %.4g a second, a face in %zu\n", frames,
                rate_hz, faces);
+  for (const std::string& line : character->MissingPoses())
+    std::fprintf(stderr, "facewire retarget: %s\n", line.c_str());
 }
 
 }  // namespace
