@@ -5,6 +5,7 @@
 
 #include "app/toml_reader.h"
 #include "core/base/capacity.h"
+#include "core/marker_name.h"
 
 namespace facewire::app {
 namespace {
@@ -129,6 +130,7 @@ class RigReader {
       named = false;
     }
     if (table.Has("landmark")) bone.landmark = ReadLandmark(table);
+    if (table.Has("marker")) ReadMarker(table, bone);
     std::array<float, 3> rest{};
     table.Numbers("rest_cm", rest.data(), rest.size(), {-1000, 1000, "cm"});
     bone.rest_cm = {rest[0], rest[1], rest[2]};
@@ -157,11 +159,12 @@ class RigReader {
                            limits.Require("max", "the highest value (a position is an offset)");
       ReadChannel(limits, axis.range, channel);
       // A landmark that is wrong was reported; the bone was meant to have one.
-      const bool follows_landmark = IsPosition(axis.kind) && table.Has("landmark");
-      if (limited && channel.drives.empty() && !limits.Has("drive") && !follows_landmark) {
+      const bool follows = IsPosition(axis.kind) && (table.Has("landmark") || table.Has("marker"));
+      if (limited && channel.drives.empty() && !limits.Has("drive") && !follows) {
         table.Problem(axis.name,
                       IsPosition(axis.kind)
-                          ? "would never move; give the bone a landmark, or a drive here"
+                          ? "would never move; give the bone a landmark or a marker, or a "
+                            "drive here"
                           : "would never move; give it a drive, as drive = { jawOpen = 20 }");
       }
       limits.Finish();
@@ -262,6 +265,26 @@ class RigReader {
       table.Problem(key, "a second channel \"" + name + "\"; every name may be there once");
     } else if (!rig_.channels.try_push(channel)) {
       table.Problem(key, "too many channels; the most is " + std::to_string(kMaxChannels));
+    }
+  }
+
+  // "lm33" is landmark 33 under the name that it has in marker files.
+  static void ReadMarker(TableReader& table, Bone& bone) {
+    std::string text;
+    table.Text("marker", text);
+    if (table.Has("landmark")) {
+      table.Problem("marker", "the bone has a landmark too; give it one of them");
+      return;
+    }
+    const auto name = ShortName::From(text);
+    if (!name) {
+      table.Problem("marker", "\"" + text + "\" is no name; expected 1 to " +
+                                  std::to_string(kMaxNameLength) +
+                                  " printable ASCII characters without spaces");
+    } else if (const auto landmark = LandmarkOf(text)) {
+      bone.landmark = *landmark;
+    } else {
+      bone.marker = *name;
     }
   }
 

@@ -216,7 +216,9 @@ void Service::Obey(const Request& request, state::Inputs& in) noexcept {
       break;
     case wire::CommandCode::kBlendProfile: {
       const float part = request.command.value;
-      if (!(part >= 0 && part <= 1) || !parts_.blend_profile || !parts_.blend_profile(part)) {
+      if (part >= 0 && part <= 1 && character_->retargeter.has_personal()) {
+        character_->retargeter.SetBlend(part);
+      } else {
         result = wire::CommandResult::kRefused;
       }
       break;

@@ -47,8 +47,6 @@ struct ServiceParts {
   hal::GpioInput* calibrate = nullptr;
   // Keeps a neutral that a command took, across boots. False: it could not be kept.
   std::function<bool(const retarget::Neutral&)> keep_neutral = {};
-  // Blends so much (0..1) of the personal profile in. False: there is none.
-  std::function<bool(float)> blend_profile = {};
   // Hears what became of a press of the button, which has nobody else to tell.
   std::function<void(const wire::Acknowledgement&)> log_answer = {};
 };

@@ -9,11 +9,11 @@ namespace facewire {
 
 inline constexpr std::size_t kMaxLandmarks = 478;  // attention network: 468 mesh, 2 x 5 iris
 inline constexpr std::size_t kMeshLandmarks = 468;
-inline constexpr std::size_t kMaxBones = 48;
-inline constexpr std::size_t kMaxChannels = 192;          // values in one RigPose
-inline constexpr std::size_t kMaxDrives = 8;              // signals that add up to one channel
-inline constexpr std::size_t kMaxCurvePoints = 8;         // of the response of one channel
-inline constexpr std::size_t kMaxSignals = 96;            // outputs of the expression mapping
+inline constexpr std::size_t kMaxBones = 80;       // one for each of the usual 68 markers, and some
+inline constexpr std::size_t kMaxChannels = 240;   // values in one RigPose: three for each bone
+inline constexpr std::size_t kMaxDrives = 8;       // signals that add up to one channel
+inline constexpr std::size_t kMaxCurvePoints = 8;  // of the response of one channel
+inline constexpr std::size_t kMaxSignals = 96;     // outputs of the expression mapping
 inline constexpr std::size_t kMaxExpressionInputs = 384;  // 3 x landmarks that a profile reads
 inline constexpr std::size_t kMaxMarkers = kMaxExpressionInputs / 3;
 inline constexpr std::size_t kMaxTrainingSamples = 1024;

@@ -28,6 +28,7 @@ class ShortName {
     return name;
   }
 
+  constexpr bool empty() const noexcept { return size_ == 0; }
   constexpr std::string_view view() const noexcept { return {text_.data(), size_}; }
   friend constexpr bool operator==(const ShortName& a, const ShortName& b) noexcept {
     return a.view() == b.view();

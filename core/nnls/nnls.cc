@@ -9,8 +9,6 @@
 namespace facewire::nnls {
 namespace {
 
-// Steadies the basis where samples do not determine it, far below what it changes where they do.
-constexpr double kBasisRidge = 1e-9;
 // Without one sample its pose may be unknown; such a pose then counts as absent.
 constexpr double kLeastRidgeLeaveOneOut = 1e-9;
 constexpr int kMaxRounds = 64;
@@ -37,12 +35,6 @@ std::span<T> Row(std::span<T> matrix, std::size_t row, std::size_t columns) noex
   return matrix.subspan(row * columns, columns);
 }
 
-double MeanDiagonal(std::span<const double> matrix, std::size_t n) noexcept {
-  double sum = 0;
-  for (std::size_t i = 0; i < n; ++i) sum += matrix[i * n + i];
-  return sum / static_cast<double>(n);
-}
-
 // Two samples with the same inputs whose targets differ: one of them must be wrong.
 void FindContradiction(const NnlsShape& shape, std::span<const float> samples,
                        std::span<const float> targets, NnlsReport& report) noexcept {
@@ -60,73 +52,22 @@ void FindContradiction(const NnlsShape& shape, std::span<const float> samples,
 
 }  // namespace
 
-// The basis, in the workspace.
+// What Evaluate will need, in the workspace.
 struct Nnls::Problem {
-  NnlsShape shape;
-  std::span<double> motion;         // samples x inputs: from the neutral sample
-  std::span<double> weights;        // samples x outputs: targets from the neutral's, in whole units
-  std::span<double> normal;         // outputs x outputs: factors of weights' weights
-  std::span<double> basis;          // outputs x inputs
+  Basis basis;
   std::span<double> gram, factors;  // outputs x outputs
   std::span<double> solve;          // outputs x inputs
-  std::span<double> column, error;  // outputs, inputs
-  std::span<std::uint32_t> normal_pivots, pivots;
-  rbf::LinearSolver normal_solver;
+  std::span<std::uint32_t> pivots;  // outputs
 
-  bool Take(const NnlsShape& of, Arena& arena) noexcept {
-    shape = of;
-    const std::size_t n = shape.samples;
-    const std::size_t m = shape.inputs;
-    const std::size_t k = shape.outputs;
-    motion = arena.MakeArray<double>(n * m);
-    weights = arena.MakeArray<double>(n * k);
-    normal = arena.MakeArray<double>(k * k);
-    basis = arena.MakeArray<double>(k * m);
-    gram = arena.MakeArray<double>(k * k);
-    factors = arena.MakeArray<double>(k * k);
-    solve = arena.MakeArray<double>(k * m);
-    column = arena.MakeArray<double>(k);
-    error = arena.MakeArray<double>(m);
-    normal_pivots = arena.MakeArray<std::uint32_t>(k);
-    pivots = arena.MakeArray<std::uint32_t>(k);
-    return !pivots.empty();  // the last one: an arena that was too small before has no room now
-  }
-
-  // (T'T + ridge) B = T'D
-  Result<> SolveBasis() noexcept {
-    const std::size_t k = shape.outputs;
-    for (std::size_t s = 0; s < shape.samples; ++s) {
-      const auto row = Row(weights, s, k);
-      for (std::size_t o = 0; o < k; ++o) {
-        if (row[o] == 0) continue;
-        AddScaled<double>(row[o], row, Row(normal, o, k));
-        AddScaled<double>(row[o], Row(motion, s, shape.inputs), Row(basis, o, shape.inputs));
-      }
-    }
-    const double ridge = std::max(kBasisRidge * MeanDiagonal(normal, k), kBasisRidge);
-    for (std::size_t o = 0; o < k; ++o) normal[o * k + o] += ridge;
-    if (auto done = normal_solver.Factorise(normal, normal_pivots); !done) return done;
-    normal_solver.Solve(basis, shape.inputs);
+  Result<> Take(const NnlsShape& shape, Arena& arena) noexcept {
+    if (auto taken = basis.Take(shape, arena); !taken) return taken;
+    gram = arena.MakeArray<double>(shape.outputs * shape.outputs);
+    factors = arena.MakeArray<double>(shape.outputs * shape.outputs);
+    solve = arena.MakeArray<double>(shape.outputs * shape.inputs);
+    pivots = arena.MakeArray<std::uint32_t>(shape.outputs);
+    if (gram.empty() || factors.empty() || solve.empty() || pivots.empty())
+      return Errc::kInvalidArgument;
     return {};
-  }
-
-  // Takes sample s out of the basis, or with sign -1 puts it back: a change of rank one.
-  //     B without s = B - (T'T)^-1 t_s (d_s - B' t_s) / (1 - t_s' (T'T)^-1 t_s)
-  void LeaveOut(std::size_t s) noexcept {
-    const auto row = Row(weights, s, shape.outputs);
-    std::ranges::copy(row, column.begin());
-    normal_solver.Solve(column, 1);
-    std::ranges::copy(Row(motion, s, shape.inputs), error.begin());
-    for (std::size_t o = 0; o < shape.outputs; ++o)
-      AddScaled<double>(-row[o], Row(basis, o, shape.inputs), error);
-    const double rest = std::max(1 - Dot<double>(row, column), kBasisRidge * kBasisRidge);
-    for (double& e : error) e /= rest;
-    Change(-1);
-  }
-  void PutBack() noexcept { Change(1); }
-  void Change(double sign) noexcept {
-    for (std::size_t o = 0; o < shape.outputs; ++o)
-      AddScaled<double>(sign * column[o], error, Row(basis, o, shape.inputs));
   }
 };
 
@@ -135,9 +76,8 @@ std::size_t Nnls::RequiredBytes(const NnlsShape& s) noexcept {
 }
 
 std::size_t Nnls::WorkspaceBytes(const NnlsShape& s) noexcept {
-  const std::size_t doubles = s.samples * (s.inputs + s.outputs) +
-                              s.outputs * (3 * s.outputs + 2 * s.inputs + 1) + s.inputs;
-  return (doubles + 1) * sizeof(double) + 2 * s.outputs * sizeof(std::uint32_t);
+  return Basis::WorkspaceBytes(s) + (s.outputs * (2 * s.outputs + s.inputs) + 1) * sizeof(double) +
+         s.outputs * sizeof(std::uint32_t);
 }
 
 Result<> Nnls::Reserve(const NnlsShape& shape, Arena& arena) noexcept {
@@ -169,7 +109,7 @@ Result<> Nnls::Fit(const NnlsConfig& config, const NnlsShape& shape, std::span<c
     return Errc::kInvalidArgument;
   Arena arena(workspace);
   Problem problem;
-  if (!problem.Take(shape, arena)) return Errc::kInvalidArgument;
+  if (auto taken = problem.Take(shape, arena); !taken) return taken;
   if (config.ridge == 0) {
     FindContradiction(shape, samples, targets, report);
     if (report.duplicate_first) return Errc::kSingular;
@@ -177,6 +117,7 @@ Result<> Nnls::Fit(const NnlsConfig& config, const NnlsShape& shape, std::span<c
 
   std::ranges::copy(Row(samples, neutral, shape.inputs), rest_.begin());
   std::ranges::copy(Row(targets, neutral, shape.outputs), neutral_.begin());
+  if (auto solved = problem.basis.Estimate(samples, targets, neutral); !solved) return solved;
   for (std::size_t o = 0; o < shape.outputs; ++o) {
     float low = 0;
     float high = 0;
@@ -184,24 +125,15 @@ Result<> Nnls::Fit(const NnlsConfig& config, const NnlsShape& shape, std::span<c
       low = std::min(low, targets[s * shape.outputs + o] - neutral_[o]);
       high = std::max(high, targets[s * shape.outputs + o] - neutral_[o]);
     }
-    scale_[o] = high > low ? std::max(high, -low) : 1.0F;
+    scale_[o] = static_cast<float>(problem.basis.unit(o));
     low_[o] = low / scale_[o];
     high_[o] = high / scale_[o];
   }
-  for (std::size_t s = 0; s < shape.samples; ++s) {
-    for (std::size_t i = 0; i < shape.inputs; ++i)
-      problem.motion[s * shape.inputs + i] =
-          static_cast<double>(samples[s * shape.inputs + i]) - rest_[i];
-    for (std::size_t o = 0; o < shape.outputs; ++o)
-      problem.weights[s * shape.outputs + o] =
-          (static_cast<double>(targets[s * shape.outputs + o]) - neutral_[o]) / scale_[o];
-  }
-  if (auto solved = problem.SolveBasis(); !solved) return solved;
   for (std::size_t s = 0; !leave_one_out.empty() && s < shape.samples; ++s) {
-    problem.LeaveOut(s);
+    problem.basis.LeaveOut(s);
     const double ridge = std::max(double{config.ridge}, kLeastRidgeLeaveOneOut);
     if (auto stored = Store(problem, ridge, report); !stored) return stored;
-    problem.PutBack();
+    problem.basis.PutBack();
     const auto errors = Row(leave_one_out, s, shape.outputs);
     Evaluate(Row(samples, s, shape.inputs), errors);
     for (std::size_t o = 0; o < shape.outputs; ++o)
@@ -213,11 +145,12 @@ Result<> Nnls::Fit(const NnlsConfig& config, const NnlsShape& shape, std::span<c
 // What Evaluate needs, from the problem's basis.
 Result<> Nnls::Store(const Problem& p, double ridge, NnlsReport& report) noexcept {
   const std::size_t k = shape_.outputs;
-  for (std::size_t a = 0; a < k; ++a)
+  double size = 0;  // mean of the diagonal
+  for (std::size_t a = 0; a < k; ++a) {
     for (std::size_t b = 0; b <= a; ++b)
-      p.gram[a * k + b] = p.gram[b * k + a] =
-          Dot<double>(Row(p.basis, a, shape_.inputs), Row(p.basis, b, shape_.inputs));
-  const double size = MeanDiagonal(p.gram, k);
+      p.gram[a * k + b] = p.gram[b * k + a] = Dot<double>(p.basis.motion(a), p.basis.motion(b));
+    size += p.gram[a * k + a] / static_cast<double>(k);
+  }
   const double damping = ridge * (size > 0 ? size : 1);  // 0: nothing moves in these samples
   for (std::size_t o = 0; o < k; ++o) p.gram[o * k + o] += damping;
   std::ranges::copy(p.gram, p.factors.begin());
@@ -226,16 +159,16 @@ Result<> Nnls::Store(const Problem& p, double ridge, NnlsReport& report) noexcep
     report.dependent_output = solver.dependent_column();
     return factorised;
   }
-  std::ranges::copy(p.basis, p.solve.begin());
+  for (std::size_t o = 0; o < k; ++o)
+    std::ranges::copy(p.basis.motion(o), Row(p.solve, o, shape_.inputs).begin());
   solver.Solve(p.solve, shape_.inputs);
   const auto to_float = [](double v) { return static_cast<float>(v); };
   std::ranges::transform(p.gram, gram_.begin(), to_float);
   std::ranges::transform(p.solve, solve_.begin(), to_float);
-  damping_ = to_float(damping);
   return {};
 }
 
-float Nnls::Evaluate(std::span<const float> x, std::span<float> y) const noexcept {
+void Nnls::Evaluate(std::span<const float> x, std::span<float> y) const noexcept {
   const std::size_t k = shape_.outputs;
   for (std::size_t i = 0; i < shape_.inputs; ++i) motion_[i] = x[i] - rest_[i];
   // The minimum without bounds, w0; the gradient's constant part is B'd = gram w0.
@@ -257,10 +190,6 @@ float Nnls::Evaluate(std::span<const float> x, std::span<float> y) const noexcep
     if (largest < kStep) break;
   }
   for (std::size_t o = 0; o < k; ++o) y[o] = neutral_[o] + scale_[o] * weight_[o];
-  // |d - Bw|^2 = d'd - w'B'd - w'(B'd - B'B w), and slope = B'd - (B'B + damping) w.
-  const float unexplained = Dot<float>(motion_, motion_) - Dot<float>(pull_, weight_) -
-                            Dot<float>(slope_, weight_) - damping_ * Dot<float>(weight_, weight_);
-  return std::sqrt(std::max(unexplained, 0.0F));
 }
 
 }  // namespace facewire::nnls

@@ -7,6 +7,7 @@
 
 #include "core/base/arena.h"
 #include "core/base/result.h"
+#include "core/nnls/basis.h"
 
 namespace facewire::nnls {
 
@@ -14,11 +15,6 @@ struct NnlsConfig {
   // How strongly weights are held back, in units of the basis' mean squared length. 0 = not at all,
   // which needs inputs that tell every output from the others.
   float ridge = 1e-6F;
-};
-
-// Numbers of samples, inputs of the function and outputs.
-struct NnlsShape {
-  std::size_t samples = 0, inputs = 0, outputs = 0;
 };
 
 // Why Fit failed.
@@ -60,16 +56,14 @@ class Nnls {
                std::span<const float> targets, std::size_t neutral, std::span<std::byte> workspace,
                NnlsReport& report, std::span<float> leave_one_out = {}) noexcept;
 
-  // `x`: inputs; `y`: outputs, overwritten. The length of the motion that B w leaves unexplained,
-  // in the inputs' unit. Not reentrant: works in the object's own memory.
-  float Evaluate(std::span<const float> x, std::span<float> y) const noexcept;
+  // `x`: inputs; `y`: outputs, overwritten. Not reentrant: works in the object's own memory.
+  void Evaluate(std::span<const float> x, std::span<float> y) const noexcept;
 
  private:
   struct Problem;
   Result<> Store(const Problem& problem, double ridge, NnlsReport& report) noexcept;
 
   NnlsShape shape_;
-  float damping_ = 0;            // what ridge adds to the diagonal of gram_
   std::span<float> rest_;        // inputs: of the neutral sample
   std::span<float> solve_;       // outputs x inputs: from d to the minimum without bounds
   std::span<float> gram_;        // outputs x outputs: B'B + damping

@@ -74,11 +74,14 @@ Result<> PrincipalAxes(std::span<const float> samples, std::size_t inputs, std::
       AddScaled(row[i], row.data(), covariance.data() + i * inputs, inputs);
   }
 
-  // Start from the coordinates' own covariances, evenly picked: deterministic, and inside the
-  // space.
+  // Start from mixtures of the coordinates' covariances: deterministic, and inside the space. Every
+  // coordinate takes part, because some never move; the weights are such that no symmetry of a face
+  // cancels a direction.
+  std::ranges::fill(current, 0.0);
   for (std::size_t a = 0; a < axes; ++a)
-    std::copy_n(covariance.data() + (a * inputs / axes) * inputs, inputs,
-                current.data() + a * inputs);
+    for (std::size_t i = 0; i < inputs; ++i)
+      AddScaled(std::cos(static_cast<double>((a + 1) * i * i)), covariance.data() + i * inputs,
+                current.data() + a * inputs, inputs);
   Orthonormalise(current, inputs, axes);
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     std::ranges::fill(next, 0.0);

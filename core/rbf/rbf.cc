@@ -184,7 +184,8 @@ void Rbf::Store(const System& system, Kernel kernel) noexcept {
   }
 }
 
-void Rbf::Evaluate(std::span<const float> x, std::span<float> y) const noexcept {
+void Rbf::Evaluate(std::span<const float> x, std::span<float> y,
+                   std::span<float> squared_distances) const noexcept {
   if (shape_.samples == 0) {
     std::ranges::fill(y, 0.0F);
     return;
@@ -193,6 +194,9 @@ void Rbf::Evaluate(std::span<const float> x, std::span<float> y) const noexcept 
   float* terms = terms_.data();
   for (std::size_t s = 0; s < tail_at_; s += kBlock)
     SquaredDistances(point_.data(), centres_.data() + s * shape_.inputs, shape_.inputs, terms + s);
+  const float to_inputs = 1 / (epsilon_ * epsilon_);
+  for (std::size_t s = 0; s < squared_distances.size(); ++s)
+    squared_distances[s] = to_inputs * terms[s];
   ApplyKernel(kernel_, terms, tail_at_);
   std::fill(terms + tail_at_, terms + stride_, 0.0F);
   if (shape_.tail != Tail::kNone) terms[tail_at_] = 1;

@@ -51,9 +51,10 @@ class Rbf {
   // largest target of that output.
   static constexpr double kMaxRounding = 1e-3;
 
-  // `x`: inputs; `y`: outputs, overwritten. Not reentrant: distances lie in the object's own
-  // memory.
-  void Evaluate(std::span<const float> x, std::span<float> y) const noexcept;
+  // `x`: inputs; `y`: outputs, overwritten; `squared_distances`: empty, or one per sample: from x,
+  // in squared units of the inputs. Not reentrant: distances lie in the object's own memory.
+  void Evaluate(std::span<const float> x, std::span<float> y,
+                std::span<float> squared_distances = {}) const noexcept;
 
   const RbfShape& shape() const noexcept { return shape_; }
   float epsilon() const noexcept { return epsilon_; }

@@ -2,24 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
+#include "core/marker_name.h"
+
 namespace facewire::retarget {
 namespace {
-
-// The landmark of "lm0".."lm477".
-std::optional<std::int16_t> LandmarkOf(std::string_view name) noexcept {
-  if (!name.starts_with("lm")) return std::nullopt;
-  std::int16_t index = -1;
-  const char* end = name.data() + name.size();
-  const auto [parsed, error] = std::from_chars(name.data() + 2, end, index);
-  if (error != std::errc{} || parsed != end || index < 0 ||
-      index >= static_cast<std::int16_t>(kMaxLandmarks))
-    return std::nullopt;
-  return index;
-}
 
 bool IsValid(const RegionConfig& region, std::size_t markers, std::size_t signals) noexcept {
   const auto is_marker = [markers](std::uint16_t i) { return i < markers; };
@@ -108,16 +97,6 @@ Result<> ExpressionMapping::Configure(const Training& t, Arena& arena,
   for (std::size_t i = 0; i < columns; ++i)
     if (!neutral_.try_push({neutral[3 * i], neutral[3 * i + 1], neutral[3 * i + 2]}))
       return Errc::kFull;
-  ranges_.clear();
-  for (std::size_t o = 0; o < t.signals.size(); ++o) {
-    Range range;
-    range.neutral = range.low = range.high = t.targets[t.neutral_sample * t.signals.size() + o];
-    for (std::size_t s = 0; s < t.sample_count(); ++s) {
-      range.low = std::min(range.low, t.targets[s * t.signals.size() + o]);
-      range.high = std::max(range.high, t.targets[s * t.signals.size() + o]);
-    }
-    if (!ranges_.try_push(range)) return Errc::kFull;
-  }
   if (!regions_.try_resize(t.regions.size())) return Errc::kFull;
   for (std::size_t r = 0; r < t.regions.size(); ++r) {
     report.region = r;
@@ -129,18 +108,14 @@ Result<> ExpressionMapping::Configure(const Training& t, Arena& arena,
   return {};
 }
 
-void ExpressionMapping::Evaluate(std::span<const Point3> points_cm,
-                                 std::span<float> signals) const noexcept {
+void ExpressionMapping::Evaluate(std::span<const Point3> points_cm, std::span<float> signals,
+                                 std::span<float> novelty) const noexcept {
   std::array<float, kMaxSignals> outputs{};
-  for (const Region& region : regions_) {
-    const RegionConfig& config = region.config();
-    region.Evaluate(points_cm, std::span(outputs).first(config.outputs.size()));
-    for (std::size_t o = 0; o < config.outputs.size(); ++o) {
-      const std::uint16_t signal = config.outputs[o];
-      const Range& range = ranges_[signal];
-      signals[signal] =
-          std::isfinite(outputs[o]) ? std::clamp(outputs[o], range.low, range.high) : range.neutral;
-    }
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    const std::span<const std::uint16_t> at = regions_[r].config().outputs.span();
+    const float found = regions_[r].Evaluate(points_cm, std::span(outputs).first(at.size()));
+    for (std::size_t o = 0; o < at.size(); ++o) signals[at[o]] = outputs[o];
+    if (!novelty.empty()) novelty[r] = found;
   }
 }
 

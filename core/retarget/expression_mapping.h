@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "core/base/arena.h"
 #include "core/base/capacity.h"
@@ -45,22 +46,26 @@ class ExpressionMapping {
   bool reads_landmarks() const noexcept { return reads_landmarks_; }
   float epsilon(std::size_t region) const noexcept { return regions_[region].epsilon(); }
 
+  std::size_t region_count() const noexcept { return regions_.size(); }
+  std::string_view region_name(std::size_t region) const noexcept {
+    return regions_[region].config().name.view();
+  }
+
   // `points_cm`: one per marker; `signals`: one per signal, overwritten, each within the range that
-  // its training targets span (outside the trained region the function would run away; what is not
-  // finite becomes the neutral sample's value). Not reentrant.
-  void Evaluate(std::span<const Point3> points_cm, std::span<float> signals) const noexcept;
+  // its training targets span. Far outside its training a region eases to the trained poses that
+  // are most alike; what is not finite becomes the neutral sample's value. `novelty`: empty, or one
+  // per region: how unlike its training it finds the face, unfamiliar above
+  // TrainedSpace::kUnfamiliar. Not reentrant.
+  void Evaluate(std::span<const Point3> points_cm, std::span<float> signals,
+                std::span<float> novelty = {}) const noexcept;
 
  private:
-  struct Range {
-    float low = 0, high = 0, neutral = 0;
-  };
   Result<> TakeNames(const Training& training) noexcept;
 
   InlineVector<ShortName, kMaxMarkers> markers_;
   InlineVector<std::int16_t, kMaxMarkers> point_indices_;
   InlineVector<Point3, kMaxMarkers> neutral_;
   InlineVector<ShortName, kMaxSignals> signals_;
-  InlineVector<Range, kMaxSignals> ranges_;
   InlineVector<Region, kMaxRegions> regions_;
   bool average_user_ = false;
   bool reads_landmarks_ = false;

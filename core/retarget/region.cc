@@ -10,6 +10,19 @@ namespace {
 
 constexpr std::size_t kMaxInputs = kMaxExpressionInputs + kMaxRegionGaps;
 
+SoftRange RangeOf(const Training& t, std::size_t signal) noexcept {
+  const auto target = [&](std::size_t sample) {
+    return t.targets[sample * t.signals.size() + signal];
+  };
+  const float neutral = target(t.neutral_sample);
+  SoftRange range{neutral, neutral, neutral};
+  for (std::size_t s = 0; s < t.sample_count(); ++s) {
+    range.low = std::min(range.low, target(s));
+    range.high = std::max(range.high, target(s));
+  }
+  return range;
+}
+
 rbf::RbfShape RbfShapeOf(const RegionConfig& config, std::size_t samples) noexcept {
   return {samples, config.dimensions(), config.outputs.size(), config.rbf.tail};
 }
@@ -35,10 +48,10 @@ void Project(std::span<const float> basis, std::span<const float> x, std::span<f
 }  // namespace
 
 std::size_t Region::RequiredBytes(const RegionConfig& config, std::size_t samples) noexcept {
-  const std::size_t basis = (config.axes * config.inputs() + 1) * sizeof(float);
-  return basis + (config.method == Method::kRbf
-                      ? rbf::Rbf::RequiredBytes(RbfShapeOf(config, samples))
-                      : nnls::Nnls::RequiredBytes(NnlsShapeOf(config, samples)));
+  const std::size_t floats = config.axes * config.inputs() + samples + 2;
+  return floats * sizeof(float) + TrainedSpace::RequiredBytes(NnlsShapeOf(config, samples)) +
+         (config.method == Method::kRbf ? rbf::Rbf::RequiredBytes(RbfShapeOf(config, samples))
+                                        : nnls::Nnls::RequiredBytes(NnlsShapeOf(config, samples)));
 }
 
 std::size_t Region::WorkspaceBytes(const RegionConfig& config, std::size_t samples) noexcept {
@@ -48,13 +61,17 @@ std::size_t Region::WorkspaceBytes(const RegionConfig& config, std::size_t sampl
                                    ? rbf::Rbf::WorkspaceBytes(RbfShapeOf(config, samples))
                                    : nnls::Nnls::WorkspaceBytes(NnlsShapeOf(config, samples));
   return floats * sizeof(float) + alignof(std::max_align_t) +
-         std::max(function, rbf::PrincipalAxesWorkspaceBytes(config.inputs(), config.axes));
+         std::max({function, rbf::PrincipalAxesWorkspaceBytes(config.inputs(), config.axes),
+                   TrainedSpace::WorkspaceBytes(NnlsShapeOf(config, samples))});
 }
 
 Result<> Region::Configure(const RegionConfig& config, const Training& t, Arena& arena,
                            std::span<std::byte> workspace, TrainingReport& report,
                            std::span<float> leave_one_out) noexcept {
   config_ = config;
+  ranges_.clear();
+  for (const std::uint16_t output : config_.outputs)
+    if (!ranges_.try_push(RangeOf(t, output))) return Errc::kFull;
   const std::size_t samples = t.sample_count();
   const std::size_t inputs = config_.inputs();
   const std::size_t dimensions = config_.dimensions();
@@ -93,6 +110,16 @@ Result<> Region::Configure(const RegionConfig& config, const Training& t, Arena&
                         leave_one_out.empty() ? std::span<float>{} : errors);
       !fitted)
     return fitted;
+  if (auto known = space_.Configure(NnlsShapeOf(config_, samples), projected, targets,
+                                    t.neutral_sample, arena, rest);
+      !known)
+    return known;
+  std::array<float, kMaxSignals> outputs_there{};
+  for (std::size_t s = 0; s < samples; ++s) {
+    const auto x = projected.subspan(s * dimensions, dimensions);
+    EvaluateAt(x, std::span(outputs_there).first(outputs));
+    space_.Calibrate(x, std::span(outputs_there).first(outputs));
+  }
   for (std::size_t s = 0; !leave_one_out.empty() && s < samples; ++s)
     for (std::size_t o = 0; o < outputs; ++o)
       leave_one_out[s * t.signals.size() + config_.outputs[o]] = errors[s * outputs + o];
@@ -103,6 +130,7 @@ Result<> Region::Fit(std::span<const float> inputs, std::span<const float> targe
                      const Training& t, Arena& arena, std::span<std::byte> workspace,
                      TrainingReport& report, std::span<float> leave_one_out) noexcept {
   const std::size_t samples = t.sample_count();
+  distances_ = {};
   if (config_.method == Method::kNnls) {
     const nnls::NnlsShape shape = NnlsShapeOf(config_, samples);
     if (auto reserved = nnls_.Reserve(shape, arena); !reserved) return reserved;
@@ -110,6 +138,8 @@ Result<> Region::Fit(std::span<const float> inputs, std::span<const float> targe
                      leave_one_out);
   }
   const rbf::RbfShape shape = RbfShapeOf(config_, samples);
+  distances_ = arena.MakeArray<float>(samples);
+  if (distances_.empty()) return Errc::kFull;
   if (auto reserved = rbf_.Reserve(shape, arena); !reserved) return reserved;
   return rbf_.Fit(config_.rbf, shape, inputs, targets, workspace, report.fit, leave_one_out,
                   t.weights);
@@ -131,7 +161,7 @@ void Region::ReadInputs(std::span<const Point3> points_cm, std::span<float> inpu
   }
 }
 
-void Region::Evaluate(std::span<const Point3> points_cm, std::span<float> outputs) const noexcept {
+float Region::Evaluate(std::span<const Point3> points_cm, std::span<float> outputs) const noexcept {
   std::array<float, kMaxInputs> inputs{};
   std::array<float, kMaxInputs> projected{};
   std::span<float> x = std::span(inputs).first(config_.inputs());
@@ -141,11 +171,20 @@ void Region::Evaluate(std::span<const Point3> points_cm, std::span<float> output
     Project(basis_, x, on_axes);
     x = on_axes;
   }
+  EvaluateAt(x, outputs);
+  const float novelty = space_.Novelty(x, outputs, distances_);
+  // Least squares within their bounds do not extrapolate.
+  if (config_.method == Method::kRbf) space_.Ease(novelty, distances_, outputs);
+  return novelty;
+}
+
+void Region::EvaluateAt(std::span<const float> x, std::span<float> outputs) const noexcept {
   if (config_.method == Method::kNnls) {
     nnls_.Evaluate(x, outputs);
   } else {
-    rbf_.Evaluate(x, outputs);
+    rbf_.Evaluate(x, outputs, distances_);
   }
+  for (std::size_t o = 0; o < outputs.size(); ++o) outputs[o] = ranges_[o].Limit(outputs[o]);
 }
 
 }  // namespace facewire::retarget

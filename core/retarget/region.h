@@ -9,6 +9,8 @@
 #include "core/base/result.h"
 #include "core/nnls/nnls.h"
 #include "core/rbf/rbf.h"
+#include "core/retarget/soft_range.h"
+#include "core/retarget/trained_space.h"
 #include "core/retarget/training.h"
 
 namespace facewire::retarget {
@@ -30,20 +32,26 @@ class Region {
   const RegionConfig& config() const noexcept { return config_; }
   float epsilon() const noexcept { return rbf_.epsilon(); }
 
-  // `points_cm`: one per marker; `outputs`: one per output of the region, overwritten, not limited.
-  // Not reentrant.
-  void Evaluate(std::span<const Point3> points_cm, std::span<float> outputs) const noexcept;
+  // `points_cm`: one per marker; `outputs`: one per output of the region, overwritten, each within
+  // the range that its targets span. How unlike the training the face is there:
+  // TrainedSpace::Novelty. Not reentrant.
+  float Evaluate(std::span<const Point3> points_cm, std::span<float> outputs) const noexcept;
 
  private:
   Result<> Fit(std::span<const float> inputs, std::span<const float> targets, const Training& t,
                Arena& arena, std::span<std::byte> workspace, TrainingReport& report,
                std::span<float> leave_one_out) noexcept;
+  // Outputs at a point of the region's axes, limited; fills distances_ where the method has them.
+  void EvaluateAt(std::span<const float> x, std::span<float> outputs) const noexcept;
   void ReadInputs(std::span<const Point3> points_cm, std::span<float> inputs) const noexcept;
 
   RegionConfig config_;
   std::span<float> basis_;  // axes x inputs; empty: inputs are used as they are
   rbf::Rbf rbf_;
   nnls::Nnls nnls_;
+  TrainedSpace space_;
+  InlineVector<SoftRange, kMaxSignals> ranges_;  // one per output
+  std::span<float> distances_;                   // squared, to every sample; empty without kRbf
 };
 
 }  // namespace facewire::retarget

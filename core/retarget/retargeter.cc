@@ -158,7 +158,7 @@ Result<> Retargeter::SolveBones(Solution& solution) noexcept {
     if (static_cast<std::size_t>(link.landmark) >= solution.neutral.count) continue;
     source[n] = solution.neutral.points_cm[link.landmark];
     target[n] = rig_->bones[link.bone].rest_cm;
-    landmarks[n++] = link.landmark;
+    landmarks[n++] = rig_->bones[link.bone].marker.empty() ? link.landmark : std::int16_t{-1};
   }
   solution.bone_anchors.clear();
   if (n == 0) return {};
@@ -221,11 +221,13 @@ RigPose Retargeter::Update(const FacePose& face) noexcept {
 
 void Retargeter::ReadExpressions(const FacePose& face) noexcept {
   const Solution& solution = solutions_[current_];
-  if (shared_.mapping != nullptr) Evaluate(shared_, solution.shared, face, signals_);
+  if (shared_.mapping != nullptr)
+    Evaluate(shared_, solution.shared, face, signals_,
+             std::span(novelty_).first(shared_.mapping->region_count()));
   if (personal_.mapping == nullptr) return;
   AdvanceBlend(face.captured);
   std::array<float, kMaxSignals> personal{};
-  if (blend_ > 0) Evaluate(personal_, solution.personal, face, personal);
+  if (blend_ > 0) Evaluate(personal_, solution.personal, face, personal, {});
   for (std::size_t i = 0; i < mixes_.size(); ++i) {
     float& signal = signals_[mixes_[i].signal];
     signal = (mixes_[i].shared ? (1 - blend_) * signal : 0) + blend_ * personal[i];
@@ -234,7 +236,7 @@ void Retargeter::ReadExpressions(const FacePose& face) noexcept {
 
 // `signals` may be longer than the mapping's.
 void Retargeter::Evaluate(const Source& source, const Adaptation& adaptation, const FacePose& face,
-                          std::span<float> signals) const noexcept {
+                          std::span<float> signals, std::span<float> novelty) const noexcept {
   const Neutral& neutral = solutions_[current_].neutral;
   const auto profile = source.mapping->neutral_cm();
   std::array<Point3, kMaxMarkers> points{};
@@ -253,7 +255,7 @@ void Retargeter::Evaluate(const Source& source, const Adaptation& adaptation, co
     }
   }
   source.mapping->Evaluate(std::span(points).first(source.points.size()),
-                           signals.first(source.mapping->signals().size()));
+                           signals.first(source.mapping->signals().size()), novelty);
 }
 
 void Retargeter::AdvanceBlend(Time captured) noexcept {

@@ -77,6 +77,11 @@ class Retargeter {
   std::span<const float> signals() const noexcept {
     return std::span(signals_).first(signal_count_);
   }
+  // Of the last Update, one per region of `expressions`: see ExpressionMapping::Evaluate.
+  std::span<const float> novelty() const noexcept {
+    return std::span(novelty_).first(shared_.mapping == nullptr ? 0
+                                                                : shared_.mapping->region_count());
+  }
   // Name of signals()[index].
   std::string_view signal_name(std::size_t index) const noexcept;
 
@@ -122,7 +127,7 @@ class Retargeter {
                            Adaptation& adaptation) noexcept;
   void ReadExpressions(const FacePose& face) noexcept;
   void Evaluate(const Source& source, const Adaptation& adaptation, const FacePose& face,
-                std::span<float> signals) const noexcept;
+                std::span<float> signals, std::span<float> novelty) const noexcept;
   void AdvanceBlend(Time captured) noexcept;
   void ReadHead(const FacePose& face) noexcept;
   void MoveBones(const FacePose& face) noexcept;
@@ -144,6 +149,7 @@ class Retargeter {
   std::optional<Time> blended_at_;  // the last frame's time
   std::array<float, 2 * kMaxSignals + kHeadSignals.size()> signals_{};
   std::size_t signal_count_ = 0;
+  std::array<float, kMaxRegions> novelty_{};
   std::array<Point3, kMaxBones> offsets_cm_{};  // of bones from their rest, this frame
 };
 

@@ -64,12 +64,15 @@ struct Channel {
   float ValueOf(float sum) const noexcept;
 };
 
-// A bone of the character. A bone with a landmark is a sample of the geometry mapping: the
-// performer's neutral landmark corresponds to the bone's rest position.
+// A bone of the character. A bone with a landmark or marker is a sample of the geometry mapping:
+// where that is in the performer's neutral corresponds to the bone's rest position.
 struct Bone {
   ShortName name;
   Point3 rest_cm{};            // in the character's space
-  std::int16_t landmark = -1;  // index into Landmarks::points_px; -1 = none
+  std::int16_t landmark = -1;  // index into FacePose::points_cm; -1 = none, the bone rests
+  // Of a recorded take, when the bone follows one that is no landmark of the face mesh; `landmark`
+  // is then whatever place the take's reader gives it. Empty otherwise.
+  ShortName marker{};
 };
 
 struct Rig {

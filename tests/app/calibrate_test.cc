@@ -47,12 +47,7 @@ class Stage : public ServiceContext {
                      .follower = follower,
                      .capture = capture,
                      .control = &control,
-                     .keep_neutral = [this](const retarget::Neutral&) { return ++kept > 0; },
-                     .blend_profile =
-                         [this](float part) {
-                           blend = part;
-                           return has_personal_profile;
-                         }},
+                     .keep_neutral = [this](const retarget::Neutral&) { return ++kept > 0; }},
                     character);
     follower.failure = Errc::kNoFace;
     for (int i = 0; i < 20; ++i) running.Tick();
@@ -104,13 +99,13 @@ TEST(Calibrate, SaysInOneSentenceWhyItWasRefused) {
 
 TEST(Blend, SetsThePartOrSaysThatThereIsNothingToBlend) {
   Stage stage;
-  const Ran set = stage.Facewire({"blend", "75", stage.socket()});
-  EXPECT_EQ(set.code, 0) << set.err;
-  EXPECT_EQ(stage.blend, 0.75F);
-  stage.has_personal_profile = false;
   const Ran refused = stage.Facewire({"blend", "100", stage.pty()});
   EXPECT_EQ(refused.code, 1);
   EXPECT_THAT(refused.err, HasSubstr("no personal profile"));
+  stage.GivePersonalProfile();
+  const Ran set = stage.Facewire({"blend", "75", stage.socket()});
+  EXPECT_EQ(set.code, 0) << set.err;
+  EXPECT_EQ(stage.character.retargeter.blend(), 0.75F);
 }
 
 TEST(Calibrate, RefusesBadUsageWithOneLine) {

@@ -92,6 +92,7 @@ TEST(Control, AnswersACommandWithinATick) {
 
 TEST(Control, CommandsWhatAHostCommands) {
   ControlContext c;
+  c.GivePersonalProfile();
   c.BringToTracking();
   const auto client = c.Connect();
   client->Send(CommandCode::kStop, 1);
@@ -102,7 +103,7 @@ TEST(Control, CommandsWhatAHostCommands) {
   client->Send(static_cast<CommandCode>(99), 4);
   c.For(seconds(1));
   EXPECT_EQ(c.last_pose.state, ServiceState::kTracking);
-  EXPECT_EQ(c.blend, 0.5F);
+  EXPECT_EQ(c.character.retargeter.blend(), 0.5F);
   ASSERT_EQ(client->Answers().size(), 4U);
   EXPECT_EQ(client->Answers()[3].result, CommandResult::kUnknown);
 }

@@ -348,7 +348,7 @@ void WriteProfile(const Scratch& scratch, const std::vector<std::string>& marker
 }
 
 std::string WithPersonalProfile() {
-  return Replaced(Configuration(), "[neutral]",
+  return Replaced(Configuration("[control]\nsocket = \"control\"\n"), "[neutral]",
                   "personal = \"me.profile\"\nblend = 0.5\n[neutral]");
 }
 
@@ -361,7 +361,7 @@ TEST(Facewired, CountsAPersonalProfileInCheckAndMemory) {
   EXPECT_THAT(check.out(), HasSubstr("\npersonal profile "));
 }
 
-TEST(Facewired, BlendsASignalThatOnlyThePersonalProfileGivesAndReloadsTheBlend) {
+TEST(Facewired, BlendsASignalThatOnlyThePersonalProfileGivesByFileAndByCommand) {
   const auto configuration = [](const char* blend) {
     return Replaced(Replaced(WithPersonalProfile(), kRig, "rig.toml"), "blend = 0.5", blend);
   };
@@ -378,6 +378,9 @@ TEST(Facewired, BlendsASignalThatOnlyThePersonalProfileGivesAndReloadsTheBlend) 
   f.scratch.Write("facewire.toml", configuration("blend = 0.75"));
   process.Signal(SIGHUP);
   ASSERT_TRUE(host.Until([&] { return mutters(0.75F); })) << process.err();
+  Process blend = Tool(f, {"blend", "25", (f.scratch / "control").string()});
+  ASSERT_TRUE(host.Until([&] { return mutters(0.25F); })) << process.err();
+  EXPECT_EQ(blend.Wait(), 0) << blend.err();
   process.Signal(SIGTERM);
   EXPECT_EQ(process.Wait(), 0);
 }

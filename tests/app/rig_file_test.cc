@@ -145,7 +145,7 @@ TEST(LoadRig, SaysWhatIsWrongWhereAndWhatWouldBeRight) {
       {"name = \"r\"\n[[bone]]\nname = \"b\"\npitch = { min = -1, max = 1 }\n",
        "F:4:9: bone[0].pitch: would never move; give it a drive, as drive = { jawOpen = 20 }"},
       {"name = \"r\"\n[[bone]]\nname = \"b\"\nx = { min = -1, max = 1 }\n",
-       "F:4:5: bone[0].x: would never move; give the bone a landmark, or a drive here"},
+       "F:4:5: bone[0].x: would never move; give the bone a landmark or a marker, or a drive here"},
       {"name = \"r\"\n[[parameter]]\nname = \"jawOpen\"\nmax = inf\n",
        "F:4:7: parameter[0].max: inf is out of range; allowed: -1e+06 to 1e+06"},
       {"name = \"r\"\n[[parameter]]\nname = \"jawOpen\"\nmaxspeed = 4\n",
@@ -191,6 +191,27 @@ TEST(LoadRig, SaysWhatIsWrongWhereAndWhatWouldBeRight) {
   for (const Row& row : table) EXPECT_EQ(Complaint(row.text), row.complaint) << row.text;
 }
 
+TEST(LoadRig, ABoneFollowsALandmarkOrAMarkerByItsName) {
+  const Scratch scratch;
+  const auto load = [&](const std::string& keys) {
+    return LoadRig(scratch.Write("rig.toml", "name = \"r\"\n[[bone]]\nname = \"b\"\n" + keys +
+                                                 "x = { min = -1, max = 1 }\n"))
+        .bones[0];
+  };
+  const Bone marked = load("marker = \"RBRO1\"\n");
+  EXPECT_EQ(marked.marker.view(), "RBRO1");
+  EXPECT_EQ(marked.landmark, -1) << "no performer in front of a camera has it";
+  const Bone landmark = load("marker = \"lm33\"\n");
+  EXPECT_EQ(landmark.landmark, 33);
+  EXPECT_TRUE(landmark.marker.empty());
+  EXPECT_EQ(Complaint("name = \"r\"\n[[bone]]\nname = \"b\"\nlandmark = 3\nmarker = \"m\"\n"
+                      "x = { min = -1, max = 1 }\n"),
+            "F:5:10: bone[0].marker: the bone has a landmark too; give it one of them");
+  EXPECT_THAT(Complaint("name = \"r\"\n[[bone]]\nname = \"b\"\nmarker = \"my marker\"\n"
+                        "x = { min = -1, max = 1 }\n"),
+              HasSubstr("\"my marker\" is no name"));
+}
+
 TEST(LoadRig, ReportsEveryProblemAtOnce) {
   const std::string what = Complaint(
       "name = \"r\"\n[[bone]]\nname = \"b\"\nlandmark = 999\n[[parameter]]\nname = \"q\"\n");
@@ -204,14 +225,14 @@ TEST(LoadRig, RefusesOneMoreThanTheCapacities) {
     bones += "[[bone]]\nname = \"b" + std::to_string(i) + "\"\n";
   EXPECT_EQ(Complaint(bones), "") << "exact fit";
   EXPECT_THAT(Complaint(bones + "[[bone]]\nname = \"c\"\n"),
-              HasSubstr("too many bones; the most is 48"));
+              HasSubstr("too many bones; the most is 80"));
   std::string parameters = "name = \"r\"\n";
   for (std::size_t i = 0; i < kMaxChannels; ++i) {
     parameters += "[[parameter]]\nname = \"p" + std::to_string(i) + "\"\ndrive = { jawOpen = 1 }\n";
   }
   EXPECT_EQ(Complaint(parameters), "") << "exact fit";
   EXPECT_THAT(Complaint(parameters + "[[parameter]]\nname = \"jawOpen\"\n"),
-              HasSubstr("too many channels; the most is 192"));
+              HasSubstr("too many channels; the most is 240"));
 }
 
 TEST(LoadRig, LetsAnySignalPassWithoutAProfile) {

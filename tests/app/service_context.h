@@ -17,6 +17,7 @@
 #include "hal/fake/fake_clock.h"
 #include "hal/fake/fake_gpio.h"
 #include "hal/fake/fake_serial_port.h"
+#include "tests/core/retarget/training_example.h"
 
 namespace facewire::app {
 
@@ -106,11 +107,6 @@ class ServiceContext {
                            ++kept;
                            return keeps;
                          },
-                     .blend_profile =
-                         [this](float part) {
-                           blend = part;
-                           return has_personal_profile;
-                         },
                      .log_answer =
                          [this](const wire::Acknowledgement& answer) { logged.push_back(answer); }},
         character);
@@ -121,6 +117,14 @@ class ServiceContext {
     memories.emplace_back(retarget::Retargeter::RequiredBytes());
     Arena arena(memories.back());
     EXPECT_TRUE(which.retargeter.Configure(which.rig, nullptr, arena));
+  }
+
+  // The character has two profiles, and the second one is the performer's own; before Begin.
+  void GivePersonalProfile() {
+    ASSERT_TRUE(profile.Configure({}));
+    Arena arena(memories.front());
+    ASSERT_TRUE(
+        character.retargeter.Configure(character.rig, &profile.mapping, arena, &profile.mapping));
   }
 
   // Ticks for so long by the clock; stops when the service has finished.
@@ -167,8 +171,7 @@ class ServiceContext {
   bool alive = true;
   int kept = 0;
   bool keeps = true;
-  std::optional<float> blend;
-  bool has_personal_profile = true;
+  retarget::ExampleMapping profile;  // not used before GivePersonalProfile
   std::vector<wire::Acknowledgement> logged;
 
   // The host's side.

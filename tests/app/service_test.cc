@@ -350,19 +350,26 @@ TEST(Service, AnswersACalibrationAlthoughTheCameraFellSilent) {
 
 TEST(Service, BlendsThePersonalProfileIn) {
   ServiceContext c;
+  c.GivePersonalProfile();
   c.SendCommand(CommandCode::kBlendProfile, 1, 0.25F);
   c.For(milliseconds(100));
-  EXPECT_EQ(c.blend, 0.25F);
+  EXPECT_EQ(c.character.retargeter.blend(), 0.25F);
   c.SendCommand(CommandCode::kBlendProfile, 2, 1.01F);
   c.SendCommand(CommandCode::kBlendProfile, 3, -0.01F);
   c.For(milliseconds(100));
-  EXPECT_EQ(c.blend, 0.25F) << "unchanged";
-  c.has_personal_profile = false;
-  c.SendCommand(CommandCode::kBlendProfile, 4, 1);
-  c.For(milliseconds(100));
-  ASSERT_EQ(c.answers.size(), 4U);
+  EXPECT_EQ(c.character.retargeter.blend(), 0.25F) << "unchanged";
+  ASSERT_EQ(c.answers.size(), 3U);
   EXPECT_EQ(c.answers[0].result, CommandResult::kOk);
-  for (int i = 1; i < 4; ++i) EXPECT_EQ(c.answers[i].result, CommandResult::kRefused) << i;
+  EXPECT_EQ(c.answers[1].result, CommandResult::kRefused);
+  EXPECT_EQ(c.answers[2].result, CommandResult::kRefused);
+}
+
+TEST(Service, RefusesToBlendAPersonalProfileThatThereIsNot) {
+  ServiceContext c;
+  c.SendCommand(CommandCode::kBlendProfile, 1, 0.25F);
+  c.For(milliseconds(100));
+  ASSERT_EQ(c.answers.size(), 1U);
+  EXPECT_EQ(c.answers[0].result, CommandResult::kRefused);
 }
 
 // What a hand does to the button, with the pictures' own time.

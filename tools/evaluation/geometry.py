@@ -7,7 +7,8 @@ from evaluation.commands import write_markers
 from evaluation.report import Row, Section
 
 NEUTRAL_FRAMES = 10
-# Of the 68 markers the 48 that a rig has bones for: every other one of the jaw line, brows, some of the nose, lids, outer lips.
+# Of the 68 markers those that a rig's 48 bones follow: every other one of the jaw line, brows, some of the nose, lids, outer
+# lips.
 BONES = [*range(0, 17, 2), *range(17, 27), 27, 30, 31, 33, 35, *range(36, 60)]
 MOUTH, CHIN = slice(48, 60), 8
 
@@ -40,7 +41,7 @@ WARPS = {"anisotropic scale": anisotropic_scale, "mouth half again as wide": wid
 
 
 def write_rig(path, names, rest):
-    """A bone for each marker, free to go anywhere."""
+    """A bone for each marker, free to go nearly anywhere."""
     parts = ['name = "warped"\n']
     for name, (x, y, z) in zip(names, rest):
         axes = "\n".join(f"{axis} = {{ min = -20, max = 20 }}" for axis in "xyz")
@@ -69,4 +70,6 @@ def measure(context):
         error, copying = metrics.motion_error(ours, truth), metrics.motion_error(copied, truth)
         section.rows.append(Row(f"{name}: error / motion", error, ("<=", 0.15), (f"{copying:.3f}", ".16-.42")))
         section.rows.append(Row(f"{name}: error / error of copying", error / copying, ("<=", 1)))
+    said = context.commands.run(context.commands.build / "tests/core/retarget/retarget_test", "--gtest_filter=*Bones*")
+    section.rows.append(Row("property tests: no bone outside its limits", int("[  PASSED  ]" in said), (">=", 1), digits=0))
     return section

@@ -12,6 +12,8 @@ namespace facewire::tools {
 void AddTrack(CLI::App& facewire);
 void AddRetarget(CLI::App& facewire);
 void AddNeutral(CLI::App& facewire);
+void AddRecord(CLI::App& facewire);
+void AddPick(CLI::App& facewire);
 void AddTrain(CLI::App& facewire);
 void AddMonitor(CLI::App& facewire);
 void AddCalibrate(CLI::App& facewire);

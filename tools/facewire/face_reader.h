@@ -19,7 +19,7 @@ namespace facewire::tools {
 
 // What a command that follows a face lets the person choose.
 struct FaceOptions {
-  std::string input;                // a video file, "v4l2:/dev/videoN" or "libcamera:N"
+  std::string input;  // a video file, "v4l2:/dev/videoN", "libcamera:N" or a landmark file (.jsonl)
   std::string model = "attention";  // or "mesh"
   std::string networks;             // folder; empty: found as NetworksFolder says
 };

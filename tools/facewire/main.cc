@@ -23,6 +23,8 @@ void AddCommands(CLI::App& facewire) {
   AddTrack(facewire);
   AddRetarget(facewire);
   AddNeutral(facewire);
+  AddRecord(facewire);
+  AddPick(facewire);
   AddTrain(facewire);
   AddMonitor(facewire);
   AddCalibrate(facewire);

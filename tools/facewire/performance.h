@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/face_pose.h"
-#include "core/retarget/expression_mapping.h"
 #include "tools/facewire/face_reader.h"
+#include "tools/facewire/marker_layout.h"
 
 namespace facewire::tools {
 
@@ -29,16 +29,20 @@ class Performance {
   virtual std::optional<Moment> Next() = 0;
 };
 
-// A video: tracked, filtered and freed from head motion as the service does it.
-std::unique_ptr<Performance> OpenVideo(const FaceOptions& options);
+// What is done to landmarks over time. Stills are no film: smoothing would mix one into the next.
+enum class Smoothing { kAsTheService, kNone };
 
-// Recorded markers (tools/markers/take.h), ordered as the mapping reads them. `rigid` names markers
+// A video, a camera or a landmark file: tracked or read, smoothed, and freed from head motion as
+// the service does it.
+std::unique_ptr<Performance> OpenVideo(const FaceOptions& options,
+                                       Smoothing smoothing = Smoothing::kAsTheService);
+
+// Recorded markers (tools/markers/take.h), in the places of `layout`. `rigid` names markers
 // that only follow the head, at least three not on one line: head motion is removed by their fit to
 // the first frame that has them all; without names, the take counts as free of head motion. A frame
 // with a gap in a marker that is read has no face. Throws BadInput, naming the markers that the
 // take lacks.
-std::unique_ptr<Performance> OpenMarkers(const std::string& path,
-                                         const retarget::ExpressionMapping& mapping,
+std::unique_ptr<Performance> OpenMarkers(const std::string& path, const MarkerLayout& layout,
                                          const std::vector<std::string>& rigid);
 
 // True when the name ends as a marker file's does.

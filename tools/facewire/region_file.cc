@@ -257,7 +257,8 @@ RegionConfig WholeFace(const app::TrainingSet& training, const RegionConfig& def
     throw app::BadInput("a profile holds at most " + std::to_string(kMaxMarkers) + " markers and " +
                         std::to_string(kMaxSignals) + " targets; there are " +
                         std::to_string(training.markers.size()) + " and " +
-                        std::to_string(training.signals.size()));
+                        std::to_string(training.signals.size()) +
+                        "; --regions reads some of them, and record --markers keeps some");
   if (region.axes > region.inputs())
     throw app::BadInput("--axes: " + std::to_string(region.axes) + " is more than the " +
                         std::to_string(region.inputs()) + " coordinates of the markers");

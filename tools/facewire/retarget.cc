@@ -12,7 +12,9 @@
 #include "core/limit/limiter.h"
 #include "core/retarget/retargeter.h"
 #include "tools/facewire/commands.h"
+#include "tools/facewire/marker_layout.h"
 #include "tools/facewire/neutral_taker.h"
+#include "tools/facewire/novelty_report.h"
 #include "tools/facewire/performance.h"
 #include "tools/facewire/pose_writer.h"
 
@@ -30,36 +32,39 @@ struct RetargetOptions {
   std::vector<std::string> rigid;
 };
 
-std::filesystem::path ProfilePath(const RetargetOptions& options) {
-  if (!options.profile.empty()) return options.profile;
-  if (IsMarkerFile(options.face.input)) {
-    throw app::BadInput(
-        "markers need --profile, a profile that was trained with markers of the same names");
-  }
+// None for markers without one: then only the geometry mapping moves the character.
+std::unique_ptr<app::Profile> OpenProfile(const RetargetOptions& options) {
+  if (!options.profile.empty()) return app::LoadProfile(options.profile);
+  if (IsMarkerFile(options.face.input)) return nullptr;
   const std::filesystem::path installed = FACEWIRE_INSTALLED_SHARE "/average.profile";
-  return std::filesystem::exists(installed) ? installed : FACEWIRE_SOURCE_SHARE "/average.profile";
+  return app::LoadProfile(
+      std::filesystem::exists(installed) ? installed : FACEWIRE_SOURCE_SHARE "/average.profile");
 }
 
 // A rig, a profile and a neutral, put together: what turns faces into poses.
 class Character {
  public:
-  Character(const RetargetOptions& options, Rig rig)
-      : rig_(rig), profile_(app::LoadProfile(ProfilePath(options))) {
+  Character(const RetargetOptions& options, Rig rig) : rig_(rig), profile_(OpenProfile(options)) {
     if (!options.personal.empty()) personal_ = app::LoadProfile(options.personal);
     const retarget::ExpressionMapping* personal =
         personal_ == nullptr ? nullptr : &personal_->mapping();
-    if (const auto unknown = retarget::FirstUnknownSignal(rig_, &profile_->mapping(), personal)) {
-      throw app::BadInput(options.rig + ": the signal " + std::string(unknown->view()) +
-                          " is driven by, but the profile does not give it");
+    if (const auto unknown = retarget::FirstUnknownSignal(rig_, mapping(), personal)) {
+      throw app::BadInput(
+          options.rig + ": the signal " + std::string(unknown->view()) + " is driven by, but " +
+          (profile_ ? "the profile does not give it"
+                    : "there is none without --profile, a profile that was trained with markers of "
+                      "the same names"));
     }
-    // The geometry mapping reads landmarks, which a marker file does not have: those bones rest.
-    if (!profile_->mapping().reads_landmarks()) {
-      for (Bone& bone : rig_.bones) bone.landmark = -1;
+    if (IsMarkerFile(options.face.input)) {
+      layout_ = LayOutMarkers(mapping(), rig_);
+      if (layout_.names.empty()) {
+        throw app::BadInput(
+            options.rig + ": no bone has a marker, and there is no --profile; nothing would move");
+      }
     }
     memory_.resize(retarget::Retargeter::RequiredBytes());
     arena_.emplace(std::span(memory_));
-    const Result<> configured =
-        retargeter_.Configure(rig_, &profile_->mapping(), *arena_, personal);
+    const Result<> configured = retargeter_.Configure(rig_, mapping(), *arena_, personal);
     if (!configured && configured.error() == Errc::kUnsupported) {
       throw app::BadInput(options.personal +
                           ": reads markers that the profile does not have; train it with some of "
@@ -73,7 +78,7 @@ class Character {
   Character& operator=(const Character&) = delete;
 
   const Rig& rig() const { return rig_; }
-  const retarget::ExpressionMapping& mapping() const { return profile_->mapping(); }
+  const MarkerLayout& layout() const { return layout_; }  // of a marker file
 
   void Use(const retarget::Neutral& neutral) {
     if (!retargeter_.SetNeutral(neutral)) {
@@ -83,6 +88,14 @@ class Character {
     }
   }
 
+  // What the profile's training lacks for the frames written so far.
+  std::vector<std::string> MissingPoses() const {
+    std::vector<std::string_view> names;
+    for (std::size_t r = 0; mapping() != nullptr && r < mapping()->region_count(); ++r)
+      names.push_back(mapping()->region_name(r));
+    return report_.Lines(names);
+  }
+
   void Write(const Moment& moment, PoseWriter& writer) {
     if (!moment.face) {
       was_lost_ = true;
@@ -90,6 +103,7 @@ class Character {
       return;
     }
     const RigPose wish = retargeter_.Update(*moment.face);
+    report_.Add(moment.frame, moment.t_us, retargeter_.novelty());
     // A face that appears is where it is; the speed limits hold from there.
     if (was_lost_) limiter_.Reset(wish);
     was_lost_ = false;
@@ -101,17 +115,22 @@ class Character {
   }
 
  private:
+  const retarget::ExpressionMapping* mapping() const {
+    return profile_ ? &profile_->mapping() : nullptr;
+  }
   static void Check(const Result<>& result, const std::string& what) {
     if (!result) throw app::Failure(what + ": " + Name(result.error()));
   }
 
   Rig rig_;
-  std::unique_ptr<app::Profile> profile_;
+  std::unique_ptr<app::Profile> profile_;   // or none
   std::unique_ptr<app::Profile> personal_;  // or none
+  MarkerLayout layout_;
   std::vector<std::byte> memory_;
   std::optional<Arena> arena_;
   retarget::Retargeter retargeter_;
   limit::Limiter limiter_;
+  NoveltyReport report_;
   bool was_lost_ = true;
 };
 
@@ -122,10 +141,9 @@ void Retarget(const RetargetOptions& options) {
   }
   NeutralTaker taker("--neutral", options.neutral);
   const auto character = std::make_unique<Character>(options, app::LoadRig(options.rig));
-  const auto performance =
-      IsMarkerFile(options.face.input)
-          ? OpenMarkers(options.face.input, character->mapping(), options.rigid)
-          : OpenVideo(options.face);
+  const auto performance = IsMarkerFile(options.face.input)
+                               ? OpenMarkers(options.face.input, character->layout(), options.rigid)
+                               : OpenVideo(options.face);
   const auto writer = OpenPoseWriter(options.out, character->rig());
 
   // Frames wait until the neutral is known, and are written from the first one on.
@@ -156,8 +174,10 @@ void Retarget(const RetargetOptions& options) {
   // Animators set their scene to this before they import.
   const double rate_hz =
       last_us > 0 ? 1e6 * static_cast<double>(frames - 1) / static_cast<double>(last_us) : 0;
-  std::fprintf(stderr, "facewire retarget: %zu frames, %.5g a second, a face in %zu\n", frames,
+  std::fprintf(stderr, "facewire retarget: %zu frames, %.4g a second, a face in %zu\n", frames,
                rate_hz, faces);
+  for (const std::string& line : character->MissingPoses())
+    std::fprintf(stderr, "facewire retarget: %s\n", line.c_str());
 }
 
 }  // namespace
@@ -171,8 +191,10 @@ void AddRetarget(CLI::App& facewire) {
                    "A video, or recorded markers: .csv (NAME_x,NAME_y,NAME_z; cm), .trc or .c3d")
       ->required();
   command->add_option("--rig", options->rig, "The character")->required();
-  command->add_option("--profile", options->profile,
-                      "The trained mapping; for videos, the shipped one unless named");
+  command->add_option(
+      "--profile", options->profile,
+      "The trained mapping; unless named, for videos the shipped one, and for markers none: "
+      "then bones follow the markers that the rig names");
   CLI::Option* personal = command->add_option(
       "--personal", options->personal,
       "A profile of the performer's own poses, blended over the other by the names of signals");

@@ -87,8 +87,8 @@ class Trial {
 template <std::size_t N>
 std::vector<float> Candidates(float given, const std::array<float, N>& automatic, float unit = 1) {
   if (given != kAutomatic) return {given};
-  std::vector<float> out;
-  for (const float value : automatic) out.push_back(value * unit);
+  std::vector<float> out(automatic.begin(), automatic.end());
+  for (float& value : out) value *= unit;
   return out;
 }
 

@@ -5,8 +5,7 @@
 
 #include "core/filter/landmark_filter.h"
 #include "tools/facewire/commands.h"
-#include "tools/facewire/face_reader.h"
-#include "tools/facewire/json.h"
+#include "tools/facewire/landmark_source.h"
 #include "tools/facewire/output_file.h"
 #include "tools/facewire/stop_flag.h"
 
@@ -19,56 +18,26 @@ struct TrackOptions {
   bool filtered = false;
 };
 
-// A thousandth of a pixel: far below what the networks resolve.
-constexpr int kDecimals = 3;
-
-std::string Line(const Frame& frame, Time start, const Result<Landmarks>& face) {
-  std::string line = "{\"frame\":";
-  json::AppendInteger(line, static_cast<std::int64_t>(frame.seq));
-  line += ",\"t_us\":";
-  json::AppendInteger(line, (frame.captured - start).count());
-  line += face ? ",\"state\":\"tracking\",\"presence\":" : ",\"state\":\"searching\",\"presence\":";
-  json::AppendNumber(line, face ? static_cast<double>(face->presence) : 0.0, 4);
-  line += ",\"landmarks\":";
-  if (!face) return line + "null}\n";
-  char separator = '[';
-  for (std::size_t i = 0; i < face->count; ++i) {
-    const Point3& p = face->points_px[i];
-    line += separator;
-    char inner = '[';
-    for (const float v : {p.x, p.y, p.z}) {
-      line += inner;
-      json::AppendNumber(line, static_cast<double>(v), kDecimals);
-      inner = ',';
-    }
-    line += ']';
-    separator = ',';
-  }
-  return line + "]}\n";
-}
-
 void Track(const TrackOptions& options) {
   std::optional<StopFlag> stop;
   if (IsLive(options.face.input)) stop.emplace();
-  FaceReader reader(options.face);
+  const auto source = OpenLandmarks(options.face);
   OutputFile out(options.out);
   std::optional<filter::LandmarkFilter> filter;
   if (options.filtered) filter.emplace(filter::FilterConfig{});
-  std::optional<Time> start;
   std::size_t frames = 0;
   std::size_t faces = 0;
   while (!(stop && stop->Raised())) {
-    const auto frame = reader.Next();
-    if (!frame) break;
-    if (!start) start = frame->captured;
-    auto face = reader.Track();
-    if (filter && face) {
-      face = filter->Update(*face);
+    auto seen = source->Next();
+    if (!seen) break;
+    if (filter && seen->face) {
+      const auto steady = filter->Update(*seen->face);
+      seen->face = steady ? std::optional<Landmarks>(*steady) : std::nullopt;
     }
-    if (filter && !face) filter->Reset();
+    if (filter && !seen->face) filter->Reset();
     ++frames;
-    faces += face ? 1 : 0;
-    out.Write(Line(*frame, *start, face));
+    faces += seen->face ? 1 : 0;
+    out.Write(LandmarkLine(*seen));
   }
   out.Commit();
   std::fprintf(stderr, "facewire track: %zu frames, a face in %zu\n", frames, faces);

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "app/error.h"
-#include "app/marker_table.h"
 #include "app/profile_file.h"
 #include "tools/facewire/commands.h"
 #include "tools/facewire/region_file.h"
 #include "tools/facewire/settings.h"
+#include "tools/facewire/training_files.h"
 
 namespace facewire::tools {
 namespace {
@@ -58,38 +58,38 @@ retarget::RegionConfig ToDefaults(const TrainOptions& options) {
 // One number a row of `markers`, in the only column of the file.
 std::vector<float> ReadWeights(const std::string& path, const std::string& markers,
                                std::size_t rows) {
-  const app::NumberTable table = app::ReadNumberTable(path);
-  if (table.columns != std::vector<std::string>{"weight"})
+  TrainingTable table = ReadTargets(path);
+  if (table.names.size() != 1 || table.names[0].view() != "weight")
     throw app::BadInput(path + ":1: expected one column, weight");
-  if (table.rows() != rows)
-    throw app::BadInput(path + ": " + std::to_string(table.rows()) + " rows, but " + markers +
+  if (table.rows != rows)
+    throw app::BadInput(path + ": " + std::to_string(table.rows) + " rows, but " + markers +
                         " has " + std::to_string(rows) + "; each row has a weight");
   for (std::size_t row = 0; row < rows; ++row)
     if (!(table.values[row] > 0))
       throw app::BadInput(path + ": row " + std::to_string(row + 1) +
                           ": a weight has to be a number above 0");
-  return table.values;
+  return std::move(table.values);
 }
 
 app::TrainingSet ReadPairs(const TrainOptions& options) {
-  app::MarkerTable markers = app::ReadMarkerTable(options.markers);
-  app::NumberTable targets = app::ReadNumberTable(options.targets);
-  if (markers.rows() != targets.rows())
-    throw app::BadInput(options.targets + ": " + std::to_string(targets.rows()) + " rows, but " +
-                        options.markers + " has " + std::to_string(markers.rows()) +
+  TrainingTable markers = ReadSamples(options.markers);
+  TrainingTable targets = ReadTargets(options.targets);
+  if (markers.rows != targets.rows)
+    throw app::BadInput(options.targets + ": " + std::to_string(targets.rows) + " rows, but " +
+                        options.markers + " has " + std::to_string(markers.rows) +
                         "; each row is one sample in both files");
-  if (options.neutral_row < 1 || options.neutral_row > markers.rows())
+  if (options.neutral_row < 1 || options.neutral_row > markers.rows)
     throw app::BadInput("--neutral: " + std::to_string(options.neutral_row) + " is not a row of " +
-                        options.markers + "; it has rows 1 to " + std::to_string(markers.rows()));
+                        options.markers + "; it has rows 1 to " + std::to_string(markers.rows));
   app::TrainingSet training;
-  training.signals = app::ToNames(options.targets, targets.columns);
-  training.markers = std::move(markers.markers);
-  training.samples = std::move(markers.positions_cm);
+  training.signals = std::move(targets.names);
+  training.markers = std::move(markers.names);
+  training.samples = std::move(markers.values);
   training.targets = std::move(targets.values);
   training.neutral_sample = options.neutral_row - 1;
   training.average_user = options.average_user;
   if (!options.weights.empty())
-    training.weights = ReadWeights(options.weights, options.markers, markers.rows());
+    training.weights = ReadWeights(options.weights, options.markers, markers.rows);
   return training;
 }
 
@@ -121,6 +121,7 @@ void Train(const TrainOptions& options) {
   app::TrainingSet training = ReadPairs(options);
   training.regions = options.regions.empty() ? std::vector{WholeFace(training, defaults)}
                                              : ReadRegions(options.regions, training, defaults);
+  DropUnusedMarkers(training);
   std::vector<Choice> choices;
   // What does not pass is refused by Profile below, in words.
   if (retarget::ExpressionMapping::Check(training.view())) {

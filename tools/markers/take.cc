@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "app/error.h"
+#include "tools/markers/table.h"
 
 namespace facewire::tools::markers {
 namespace {
@@ -28,21 +28,33 @@ double CentimetresPer(const std::string& unit, const std::string& name) {
   throw app::BadInput(name + ": its unit is \"" + unit + "\"; mm, cm, m or in would be right");
 }
 
+std::uint64_t Take::Number(std::size_t frame) const {
+  return numbers.empty() ? frame : numbers[frame];
+}
+
+std::int64_t Take::TimeUs(std::size_t frame) const {
+  if (!times_us.empty()) return times_us[frame] - times_us.front();
+  constexpr double kUnknownRateHz = 60;
+  const double since = static_cast<double>(Number(frame)) - static_cast<double>(Number(0));
+  return std::llround(since * 1e6 / (rate_hz > 0 ? rate_hz : kUnknownRateHz));
+}
+
 Take ReadTake(const std::string& path) {
   const std::string ending = Lower(std::filesystem::path(path).extension().string());
-  const auto reader = ending == ".csv"   ? ReadCsv
-                      : ending == ".trc" ? ReadTrc
-                      : ending == ".c3d" ? ReadC3d
-                                         : nullptr;
-  if (reader == nullptr)
+  if (ending != ".csv" && ending != ".trc" && ending != ".c3d")
     throw app::BadInput(path + ": not a marker file; .csv, .trc or .c3d would be right");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw app::BadInput(path + ": cannot be read; is the path right?");
-  const std::string contents((std::istreambuf_iterator<char>(file)),
-                             std::istreambuf_iterator<char>());
-  Take take = reader(contents, path);
+  const std::string contents = ReadFile(path);
+  Take take = ending == ".csv"   ? ReadCsv(contents, path)
+              : ending == ".trc" ? ReadTrc(contents, path)
+                                 : ReadC3d(contents, path);
   if (take.names.empty()) throw app::BadInput(path + ": it names no markers");
   if (take.frames.empty()) throw app::BadInput(path + ": it has no frames");
+  for (std::size_t f = 1; f < take.frames.size(); ++f) {
+    if (take.Number(f) > take.Number(f - 1) && take.TimeUs(f) >= take.TimeUs(f - 1)) continue;
+    throw app::BadInput(path + ": frame " + std::to_string(take.Number(f)) + " comes after frame " +
+                        std::to_string(take.Number(f - 1)) +
+                        "; a recording is in the order of time");
+  }
   return take;
 }
 

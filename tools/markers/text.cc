@@ -1,6 +1,7 @@
 #include "tools/markers/text.h"
 
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -43,7 +44,8 @@ std::optional<double> NumberOrGap(std::string_view field) {
   if (field.starts_with('+')) field.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc{} || end != field.data() + field.size()) return std::nullopt;
+  if (error != std::errc{} || end != field.data() + field.size() || std::isinf(value))
+    return std::nullopt;
   return value;
 }
 

@@ -33,6 +33,19 @@ TEST(PrincipalAxes, FindsTheDirectionOfALineOfSamples) {
   EXPECT_NEAR(basis[2], 0, 1e-6);
 }
 
+TEST(PrincipalAxes, FindsTheOnlyCoordinateThatMovesWhereverItIs) {
+  for (std::size_t moving = 0; moving < 5; ++moving) {
+    std::vector<float> samples(15);
+    for (std::size_t s = 0; s < 3; ++s) samples[5 * s + moving] = static_cast<float>(s);
+    for (const std::size_t axes : {1, 2}) {
+      const std::vector<float> basis = Axes(samples, 5, axes);
+      float found = 0;
+      for (std::size_t a = 0; a < axes; ++a) found += std::abs(basis[5 * a + moving]);
+      EXPECT_NEAR(found, 1, 1e-6) << "coordinate " << moving << ", axes " << axes;
+    }
+  }
+}
+
 TEST(PrincipalAxes, AllAxesKeepEveryDistance) {
   std::vector<float> samples;
   for (int i = 0; i < 40; ++i) samples.push_back(std::sin(static_cast<float>(i * i)));

@@ -135,6 +135,61 @@ TEST(ExpressionMapping, AllPrincipalAxesGiveTheSameFunctionAsNone) {
   EXPECT_NEAR(plain.At(points)[1], rotated.At(points)[1], 1e-3);
 }
 
+TEST(ExpressionMapping, ARegionMayUseLeastSquares) {
+  TrainingExample example;
+  for (RegionConfig& region : example.regions) region.method = Method::kNnls;
+  example.regions[1].axes = 1;
+  std::vector<float> errors(example.targets.size());
+  ExampleMapping m;
+  ASSERT_TRUE(m.Configure(example, errors));
+  EXPECT_NEAR(m.At(TrainingExample::Points(0.3F, 0.8F))[0], 0.3F, 1e-3F);
+  EXPECT_NEAR(m.At(TrainingExample::Points(0.3F, 0.8F))[1], 0.8F, 1e-3F);
+  EXPECT_EQ(m.At(TrainingExample::Points(-2, 5))[0], 0);
+  EXPECT_EQ(m.At(TrainingExample::Points(-2, 5))[1], 1);
+  for (const float error : errors) EXPECT_NEAR(error, 0, 1e-3F);
+}
+
+TEST(ExpressionMapping, NamesTheTargetThatLeastSquaresCannotTell) {
+  TrainingExample example;
+  example.regions.resize(1);
+  TrainingExample::Fill(example.regions[0].outputs, {0, 1});  // the eye sees no mouth
+  example.regions[0].method = Method::kNnls;
+  example.regions[0].nnls.ridge = 0;
+  ExampleMapping m;
+  EXPECT_EQ(m.Configure(example).error(), Errc::kSingular);
+  EXPECT_EQ(m.report.nnls.duplicate_first, 0U) << "the eye is the same, the mouth is not";
+  EXPECT_EQ(m.report.nnls.duplicate_second, 1U);
+}
+
+TEST(ExpressionMapping, SaysWhichRegionsAFaceIsNewTo) {
+  for (const Method method : {Method::kRbf, Method::kNnls}) {
+    TrainingExample example;
+    for (RegionConfig& region : example.regions) region.method = method;
+    ExampleMapping m;
+    ASSERT_TRUE(m.Configure(example));
+    std::vector<float> signals(2);
+    std::vector<float> novelty(2, 99);
+    m.mapping.Evaluate(TrainingExample::Points(0.5F, 0.5F), signals, novelty);
+    EXPECT_LT(novelty[0], 1);
+    EXPECT_LT(novelty[1], 1);
+    auto points = TrainingExample::Points(0.5F, 0.5F);
+    points[3].x += 9;  // the lower lip, aside
+    m.mapping.Evaluate(points, signals, novelty);
+    EXPECT_LT(novelty[0], 1);
+    EXPECT_GT(novelty[1], TrainedSpace::kUnfamiliar);
+  }
+}
+
+TEST(ExpressionMapping, FarOutsideItShowsATrainedPose) {
+  TrainingExample example;
+  ExampleMapping m;
+  ASSERT_TRUE(m.Configure(example));
+  auto points = TrainingExample::Points(0.5F, 0.5F);
+  points[0].x += 500;
+  const float blink = m.At(points)[0];
+  EXPECT_NEAR(blink, 0.5F, 0.01F) << "which is the nearest";
+}
+
 TEST(ExpressionMapping, LeaveOneOutErrorsComeInTheTargetsPlaces) {
   TrainingExample example;
   std::vector<float> errors(example.targets.size(), 99.0F);

@@ -15,7 +15,7 @@ import sys
 import zlib
 
 MAX_INSIDE = 1024  # header, payload and CRC
-MAX_BONES, MAX_CHANNELS, MAX_NAME = 48, 192, 31
+MAX_BONES, MAX_CHANNELS, MAX_NAME = 80, 240, 31
 KINDS = ["parameter", "position_x", "position_y", "position_z", "pitch", "yaw", "roll"]
 FAULT = 7
 CODES_WITH_VALUE = {7}

@@ -296,13 +296,13 @@ void AddDamage(std::vector<Vector>& all) {
             MakeBytes({1, 0, 7, 0, 0, 0xC0, 0x7F}));
   malformed("malformed_pose_short", "A pose that promises two values and holds one", 0x10,
             Bytes(20, std::byte{0}) + MakeBytes({2, 2, 0x11, 0x22}));
-  malformed("malformed_pose_count", "A pose of 193 channels", 0x10,
-            Bytes(20, std::byte{0}) + MakeBytes({2, 193}) + Bytes(386, std::byte{0x11}));
+  malformed("malformed_pose_count", "A pose of 241 channels", 0x10,
+            Bytes(20, std::byte{0}) + MakeBytes({2, 241}) + Bytes(482, std::byte{0x11}));
   malformed("malformed_name", "A bone whose name has a space", 0x02,
             Bytes(17, std::byte{0}) + MakeBytes({3, 'a', ' ', 'b'}));
   malformed("malformed_name_long", "A name of 32 characters", 0x01,
             MakeBytes({1, 0, 0, 0, 0, 0, 32}) + Bytes(32, std::byte{'a'}));
-  malformed("malformed_bones", "A rig of 49 bones", 0x01, MakeBytes({1, 0, 0, 0, 49, 0, 0}));
+  malformed("malformed_bones", "A rig of 81 bones", 0x01, MakeBytes({1, 0, 0, 0, 81, 0, 0}));
   malformed("malformed_nan", "A rest position that is not a number", 0x02,
             Bytes(5, std::byte{0}) + MakeBytes({0, 0, 0xC0, 0x7F}) + Bytes(9, std::byte{0}));
   malformed("malformed_range", "A channel whose min (1) is above its max (0)", 0x03,

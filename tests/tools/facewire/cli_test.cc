@@ -26,7 +26,7 @@ TEST(FacewireCli, HelpsAndTellsItsVersion) {
   EXPECT_EQ(help.code, 0);
   EXPECT_THAT(RunFacewire({"--version"}).out, StartsWith("facewire "));
   for (const char* command :
-       {"track", "retarget", "neutral", "train", "monitor", "sheet", "doctor"}) {
+       {"track", "record", "pick", "retarget", "neutral", "train", "monitor", "sheet", "doctor"}) {
     EXPECT_THAT(help.out, HasSubstr(command));
     const Outcome own = RunFacewire({command, "--help"});
     EXPECT_EQ(own.code, 0) << command;

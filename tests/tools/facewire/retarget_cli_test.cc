@@ -41,6 +41,29 @@ TEST(FacewireRetarget, DrivesAParameterFromMarkersWithATrainedProfile) {
   EXPECT_NEAR(std::stod(last), 1, 0.01);
 }
 
+TEST(FacewireRetarget, SaysAtTheEndWhichPoseTheTrainingLacks) {
+  const Scratch scratch;
+  const std::string markers = scratch.Write("m.csv", kMarkers);
+  const std::string profile = scratch.Path("p.profile");
+  ASSERT_EQ(RunFacewire({"train", "--markers", markers, "--targets",
+                         scratch.Write("t.csv", kTargets), "--out", profile})
+                .code,
+            0);
+  // After a trained pose, a smile that nobody trained.
+  const std::string take = std::string(kMarkers) + "0,-8,4,4.5,-2,4,-4.5,-2,4\n";
+  const auto retarget = [&](const std::string& input) {
+    return RunFacewire({"retarget", input, "--rig", scratch.Write("rig.toml", kRig), "--profile",
+                        profile, "--neutral", "0:1", "--out", scratch.Path("out.csv")});
+  };
+  const Outcome familiar = retarget(markers);
+  ASSERT_EQ(familiar.code, 0) << familiar.err;
+  EXPECT_EQ(familiar.err, "facewire retarget: 3 frames, 60 a second, a face in 3\n");
+  const Outcome outcome = retarget(scratch.Write("take.csv", take));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("facewire retarget: face: 1 frame unlike any trained pose, "
+                                     "most so frame 3 (0:00.0); record a pose like it"));
+}
+
 TEST(FacewireRetarget, NamesTheMarkersThatAProfileMisses) {
   const Scratch scratch;
   const std::string markers = scratch.Write("m.csv", kMarkers);
@@ -53,7 +76,7 @@ TEST(FacewireRetarget, NamesTheMarkersThatAProfileMisses) {
   const Outcome outcome = RunFacewire({"retarget", other, "--rig", scratch.Write("rig.toml", kRig),
                                        "--profile", profile, "--out", scratch.Path("out.jsonl")});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("lipL, lipR"));
+  EXPECT_THAT(outcome.err, HasSubstr("there is no marker lipL, and no lipR"));
 }
 
 // The performer's own profile wants half of jawOpen.

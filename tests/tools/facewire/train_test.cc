@@ -209,6 +209,32 @@ TEST(Train, RegionsKeepTheirMarkersApart) {
   EXPECT_EQ(c.At({{0, -1, 0}, {3, 3, 0}})[0], c.At({{0, -1, 0}, {9, 9, 9}})[0]);
 }
 
+// A recorded face has more landmarks than a profile holds.
+TEST(Train, LeavesOutTheMarkersThatNoRegionReads) {
+  Context c;
+  c.markers = "lm0_x,lm0_y,lm0_z";
+  for (int i = 1; i < 478; ++i) {
+    const std::string name = ",lm" + std::to_string(i);
+    c.markers.append(name + "_x").append(name + "_y").append(name + "_z");
+  }
+  for (int row = 0; row < 5; ++row) {
+    c.markers += "\n0,0,0";
+    for (int i = 1; i < 478; ++i)
+      c.markers += i == 13 ? ",0," + std::to_string(-row) + ",0" : i == 374 ? ",3,2,0" : ",9,9,9";
+  }
+  c.targets = "open\n0\n0.25\n0.5\n0.75\n1\n";
+  EXPECT_THAT(c.Error(), HasSubstr("at most 128 markers"));
+  const auto regions = c.scratch.Write("r.toml",
+                                       "[[region]]\nname = \"lips\"\npoints = [\"lm374\"]\n"
+                                       "gaps = [[\"lm374\", \"lm13\"]]\ntargets = [\"open\"]\n");
+  c.Train({"--regions", regions.string()});
+  const app::TrainingSet training = app::ReadTrainingSet(c.Out());
+  ASSERT_EQ(training.markers.size(), 2U);
+  EXPECT_EQ(training.markers[0].view(), "lm13");
+  EXPECT_EQ(training.markers[1].view(), "lm374");
+  EXPECT_NEAR(c.At({{0, -4, 0}, {3, 2, 0}})[0], 1, 1e-2);
+}
+
 TEST(Train, BadInputIsOneLineAndLeavesNothing) {
   const auto with = [](const char* markers, const char* targets,
                        std::vector<std::string> more = {}) {
@@ -217,11 +243,24 @@ TEST(Train, BadInputIsOneLineAndLeavesNothing) {
     if (targets != nullptr) c.targets = targets;
     return c.Error(std::move(more));
   };
-  EXPECT_THAT(with("a_x,a_y,a_z\n0,0,0\n1,0\n", nullptr), HasSubstr("m.csv:3: 2 columns"));
+  EXPECT_THAT(with("a_x,a_y,a_z\n0,0,0\n1,0\n", nullptr),
+              HasSubstr("m.csv:3: 2 fields; the header has 3"));
   EXPECT_THAT(with(nullptr, "a\n1\n2\n3\n4\noops\n"),
-              HasSubstr("t.csv:6: column 1: \"oops\" is not a finite number"));
+              HasSubstr("t.csv:6: column a: \"oops\" is not a number"));
   EXPECT_THAT(with(nullptr, "a\n1\n2\n"), HasSubstr("t.csv: 2 rows, but "));
   EXPECT_THAT(with("", nullptr), HasSubstr("no columns"));
+  EXPECT_THAT(with("a_x,a_y,a_z\n", nullptr), HasSubstr("m.csv: no rows"));
+  EXPECT_THAT(with("a_x,a_y,a_z\n0,0,0\n1,,0\n", nullptr),
+              HasSubstr("m.csv:3: the marker a was not seen here"));
+  EXPECT_THAT(with("note,a_x,a_y,a_z\n0,0,0,0\n", nullptr),
+              HasSubstr("column note does not start"));
+  EXPECT_THAT(with(nullptr, "frame,a,b\n0,0,0\n1,2,\n"),
+              HasSubstr("t.csv:3: column b is empty; every sample needs its value"));
+  EXPECT_THAT(with(nullptr, "frame,t_us\n0,0\n"), HasSubstr("no columns besides"));
+  EXPECT_THAT(with(nullptr, "a\n"), HasSubstr("t.csv: no rows"));
+  EXPECT_THAT(with(nullptr, "open,open\n1,2\n"), HasSubstr("\"open\" appears twice"));
+  EXPECT_THAT(with(nullptr, "jaw open\n1\n"), HasSubstr("\"jaw open\" cannot be a name"));
+  EXPECT_THAT(with(nullptr, "a,,b\n1,2,3\n"), HasSubstr("\"\" cannot be a name"));
   EXPECT_THAT(with("a_x,a_y,a_z\n0,0,0\n1,0,0\n2,0,0\n1,0,0\n5,0,0\n", nullptr),
               HasSubstr("rows 2 and 4 have the same markers"));
   EXPECT_THAT(with(nullptr, nullptr, {"--kernel", "sinc"}), HasSubstr("one of multiquadric"));

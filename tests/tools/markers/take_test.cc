@@ -37,6 +37,10 @@ TEST(MarkerTake, NamesTheFileThatIsWrong) {
               HasSubstr("x.fbx: not a marker file; .csv, .trc or .c3d"));
   EXPECT_THAT(ErrorOf("/nowhere/a.csv"), HasSubstr("/nowhere/a.csv: cannot be read"));
   EXPECT_THAT(ErrorOf(Scratch("only_header.csv", "a_x,a_y,a_z\n")), HasSubstr("no frames"));
+  EXPECT_THAT(ErrorOf(Scratch("back.csv", "frame,a_x,a_y,a_z\n4,1,2,3\n2,1,2,3\n")),
+              HasSubstr("frame 2 comes after frame 4; a recording is in the order of time"));
+  EXPECT_THAT(ErrorOf(Scratch("late.csv", "time_s,a_x,a_y,a_z\n4,1,2,3\n2,1,2,3\n")),
+              HasSubstr("order of time"));
 }
 
 }  // namespace
