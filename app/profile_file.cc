@@ -13,6 +13,7 @@ using retarget::RegionConfig;
 
 constexpr FileKind kProfile = {"FWPROFIL", 2, "profile", "make it again with facewire train"};
 constexpr std::uint32_t kAverageUser = 1U << 0;
+constexpr std::uint32_t kWeighted = 1U << 1;
 
 std::string Quoted(const ShortName& name) { return "\"" + std::string(name.view()) + "\""; }
 
@@ -95,7 +96,7 @@ class Parser {
     const std::size_t markers = in_.U16();
     const std::size_t signals = in_.U16();
     const std::size_t regions = in_.U16();
-    Expect(in_.U16() == 0 && (flags & ~kAverageUser) == 0);
+    Expect(in_.U16() == 0 && (flags & ~(kAverageUser | kWeighted)) == 0);
     out.neutral_sample = in_.U32();
     out.average_user = (flags & kAverageUser) != 0;
     // Before anything is allocated for them.
@@ -105,6 +106,7 @@ class Parser {
     for (std::size_t i = 0; i < signals; ++i) out.signals.push_back(ReadName());
     out.samples = ReadFloats(samples * 3 * markers);
     out.targets = ReadFloats(samples * signals);
+    if ((flags & kWeighted) != 0) out.weights = ReadFloats(samples);
     for (std::size_t i = 0; i < regions; ++i) out.regions.push_back(ReadRegion());
     Expect(in_.ok() && in_.left() == 0);
     return out;
@@ -196,7 +198,7 @@ std::unique_ptr<Profile> LoadProfile(const std::filesystem::path& path) {
 
 void SaveProfile(const std::filesystem::path& path, const TrainingSet& training) {
   ByteWriter out;
-  out.U32(training.average_user ? kAverageUser : 0);
+  out.U32((training.average_user ? kAverageUser : 0) | (training.weights.empty() ? 0 : kWeighted));
   out.U32(static_cast<std::uint32_t>(training.view().sample_count()));
   out.U16(static_cast<std::uint16_t>(training.markers.size()));
   out.U16(static_cast<std::uint16_t>(training.signals.size()));
@@ -207,6 +209,7 @@ void SaveProfile(const std::filesystem::path& path, const TrainingSet& training)
   for (const ShortName& name : training.signals) out.Text(name.view());
   for (const float value : training.samples) out.F32(value);
   for (const float value : training.targets) out.F32(value);
+  for (const float value : training.weights) out.F32(value);
   for (const RegionConfig& region : training.regions) WriteRegion(out, region);
   WriteFileAtomically(path, Seal(kProfile, out.bytes()));
 }

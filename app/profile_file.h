@@ -20,9 +20,10 @@ struct TrainingSet {
   std::vector<retarget::RegionConfig> regions;
   std::size_t neutral_sample = 0;
   bool average_user = false;
+  std::vector<float> weights;
 
   retarget::Training view() const {
-    return {markers, signals, samples, targets, regions, neutral_sample, average_user};
+    return {markers, signals, samples, targets, regions, neutral_sample, average_user, weights};
   }
 };
 

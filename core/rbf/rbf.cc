@@ -109,7 +109,7 @@ Result<> Rbf::Reserve(const RbfShape& capacity, Arena& arena) noexcept {
 
 Result<> Rbf::Fit(const RbfConfig& config, const RbfShape& shape, std::span<const float> samples,
                   std::span<const float> targets, std::span<std::byte> workspace, FitReport& report,
-                  std::span<float> leave_one_out) noexcept {
+                  std::span<float> leave_one_out, std::span<const float> weights) noexcept {
   report = {};
   shape_ = {};
   if (shape.samples > capacity_.samples || shape.inputs > capacity_.inputs ||
@@ -126,7 +126,8 @@ Result<> Rbf::Fit(const RbfConfig& config, const RbfShape& shape, std::span<cons
   const auto exact = arena.MakeArray<double>(shape.outputs);
   const auto rounded = arena.MakeArray<float>(shape.outputs);
   System system;
-  if (auto configured = system.Configure(shape, samples, targets, workspace.subspan(arena.used()));
+  if (auto configured =
+          system.Configure(shape, samples, targets, workspace.subspan(arena.used()), weights);
       !configured)
     return configured;
   double epsilon = config.epsilon;

@@ -30,11 +30,12 @@ class Rbf {
 
   // `samples`: shape.samples x shape.inputs by rows; `targets`: shape.samples x shape.outputs by
   // rows. `leave_one_out`: empty, or samples x outputs: target minus what the other samples predict
-  // there (System::LeaveOneOut). kFull: shape exceeds the capacity. kInvalidArgument: sizes that
-  // contradict the shape, values that are not finite, a workspace that is too small, negative
-  // numbers in the config other than its named ones. kSingular: the samples do not determine the
-  // function, or so badly that rounding would show (more than kMaxRounding); `report` says which
-  // samples are to blame. After an error the function is zero.
+  // there (System::LeaveOneOut). `weights`: empty, or one per sample, > 0, by which its smoothing
+  // is divided: a sample of weight 2 is the same sample twice. kFull: shape exceeds the capacity.
+  // kInvalidArgument: sizes that contradict the shape, values that are not finite, a workspace that
+  // is too small, negative numbers in the config other than its named ones. kSingular: the samples
+  // do not determine the function, or so badly that rounding would show (more than kMaxRounding);
+  // `report` says which samples are to blame. After an error the function is zero.
   //
   // kAutomaticEpsilon minimises the sum of squared leave-one-out errors plus what float would add
   // to them. It looks at 1 / mean distance times 1/16, 1/4, 1, 4 and 16, walks on while an end is
@@ -44,7 +45,7 @@ class Rbf {
   // kMeanDistanceEpsilon does for all; 1 per unit if there is no distance.
   Result<> Fit(const RbfConfig& config, const RbfShape& shape, std::span<const float> samples,
                std::span<const float> targets, std::span<std::byte> workspace, FitReport& report,
-               std::span<float> leave_one_out = {}) noexcept;
+               std::span<float> leave_one_out = {}, std::span<const float> weights = {}) noexcept;
 
   // How far Evaluate may be from the solution in double precision at any sample, as a part of the
   // largest target of that output.

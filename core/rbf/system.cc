@@ -64,17 +64,20 @@ std::size_t System::WorkspaceBytes(const RbfShape& s) noexcept {
 }
 
 Result<> System::Configure(const RbfShape& shape, std::span<const float> samples,
-                           std::span<const float> targets,
-                           std::span<std::byte> workspace) noexcept {
+                           std::span<const float> targets, std::span<std::byte> workspace,
+                           std::span<const float> weights) noexcept {
   if (shape.samples == 0 || shape.inputs == 0 || shape.outputs == 0 ||
       samples.size() != shape.samples * shape.inputs ||
-      targets.size() != shape.samples * shape.outputs || !AllFinite(samples) || !AllFinite(targets))
+      targets.size() != shape.samples * shape.outputs || !AllFinite(samples) ||
+      !AllFinite(targets) || (!weights.empty() && weights.size() != shape.samples) ||
+      !AllFinite(weights) || !std::ranges::all_of(weights, [](float w) { return w > 0; }))
     return Errc::kInvalidArgument;
   const std::size_t size = shape.samples + shape.tail_size();
   Arena arena(workspace);
   shape_ = shape;
   samples_ = samples;
   targets_ = targets;
+  sample_weights_ = weights;
   squared_ = arena.MakeArray<double>(shape.samples * shape.samples);
   mean_ = arena.MakeArray<double>(shape.inputs);
   matrix_ = arena.MakeArray<double>(size * size);
@@ -120,7 +123,8 @@ void System::FillMatrix(const RbfConfig& config) noexcept {
     for (std::size_t c = 0; c <= row; ++c)
       matrix_[row * m + c] = matrix_[c * m + row] =
           Phi(config.kernel, scale * squared_[row * n + c]);
-    matrix_[row * m + row] += sign * config.smoothing;
+    const double weight = sample_weights_.empty() ? 1.0 : sample_weights_[row];
+    matrix_[row * m + row] += sign * config.smoothing / weight;
     for (std::size_t c = n; c < m; ++c)
       matrix_[row * m + c] = matrix_[c * m + row] = TailTerm(sample(row), c - n);
   }

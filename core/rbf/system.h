@@ -13,18 +13,20 @@
 namespace facewire::rbf {
 
 // The linear system behind an Rbf, in double precision, in a borrowed workspace:
-//     [ H + sign s I   P         ] [W]   [T]      H_ij = phi(epsilon |x_i - x_j|), T = targets
+//     [ H + sign s / V P         ] [W]   [T]      H_ij = phi(epsilon |x_i - x_j|), T = targets
 //     [ P'             -sign t I ] [C] = [0]      sign = SmoothingSign, t = tail smoothing
-// with tail polynomials P: 1, or 1 and the inputs minus their mean. Inside, the inputs in P are in
-// units of 1 / epsilon, which leaves the function as it is and the matrix of one size throughout.
+// with the samples' weights V on a diagonal and tail polynomials P: 1, or 1 and the inputs minus
+// their mean. Inside, the inputs in P are in units of 1 / epsilon, which leaves the function as it
+// is and the matrix of one size throughout.
 class System {
  public:
   static std::size_t WorkspaceBytes(const RbfShape& shape) noexcept;
 
-  // Borrows all three spans and measures distances; see Rbf::Fit. kInvalidArgument: sizes that
+  // Borrows all four spans and measures distances; see Rbf::Fit. kInvalidArgument: sizes that
   // contradict the shape, values that are not finite, a workspace that is too small.
   Result<> Configure(const RbfShape& shape, std::span<const float> samples,
-                     std::span<const float> targets, std::span<std::byte> workspace) noexcept;
+                     std::span<const float> targets, std::span<std::byte> workspace,
+                     std::span<const float> weights = {}) noexcept;
 
   // Mean distance between two different samples; 0 if there is only one place.
   double mean_distance() const noexcept { return mean_distance_; }
@@ -72,11 +74,12 @@ class System {
 
   RbfShape shape_;
   std::span<const float> samples_, targets_;
-  std::span<double> squared_;  // samples x samples: squared distances
-  std::span<double> mean_;     // inputs
-  std::span<double> matrix_;   // size x size: A, then its factors
-  std::span<double> weights_;  // size x outputs
-  std::span<double> work_;     // size
+  std::span<const float> sample_weights_;  // empty: all 1
+  std::span<double> squared_;              // samples x samples: squared distances
+  std::span<double> mean_;                 // inputs
+  std::span<double> matrix_;               // size x size: A, then its factors
+  std::span<double> weights_;              // size x outputs
+  std::span<double> work_;                 // size
   std::span<std::uint32_t> pivots_;
   LinearSolver solver_;
   Kernel kernel_ = Kernel::kMultiquadric;

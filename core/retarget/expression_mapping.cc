@@ -25,7 +25,9 @@ bool IsValid(const RegionConfig& region, std::size_t markers, std::size_t signal
 bool IsValid(const Training& t) noexcept {
   const std::size_t samples = t.sample_count();
   if (samples == 0 || t.signals.empty() || t.samples.size() != samples * 3 * t.markers.size() ||
-      t.targets.size() != samples * t.signals.size() || t.neutral_sample >= samples)
+      t.targets.size() != samples * t.signals.size() || t.neutral_sample >= samples ||
+      (!t.weights.empty() && t.weights.size() != samples) ||
+      !std::ranges::all_of(t.weights, [](float w) { return std::isfinite(w) && w > 0; }))
     return false;
   std::array<int, kMaxSignals> uses{};
   for (const RegionConfig& region : t.regions) {

@@ -106,7 +106,7 @@ Result<> Region::Configure(const RegionConfig& config, const Training& t, Arena&
     basis_ = {};
     std::ranges::copy(all, projected.begin());
   }
-  if (auto fitted = Fit(projected, targets, samples, t.neutral_sample, arena, rest, report,
+  if (auto fitted = Fit(projected, targets, t, arena, rest, report,
                         leave_one_out.empty() ? std::span<float>{} : errors);
       !fitted)
     return fitted;
@@ -127,21 +127,22 @@ Result<> Region::Configure(const RegionConfig& config, const Training& t, Arena&
 }
 
 Result<> Region::Fit(std::span<const float> inputs, std::span<const float> targets,
-                     std::size_t samples, std::size_t neutral, Arena& arena,
-                     std::span<std::byte> workspace, TrainingReport& report,
-                     std::span<float> leave_one_out) noexcept {
+                     const Training& t, Arena& arena, std::span<std::byte> workspace,
+                     TrainingReport& report, std::span<float> leave_one_out) noexcept {
+  const std::size_t samples = t.sample_count();
   distances_ = {};
   if (config_.method == Method::kNnls) {
     const nnls::NnlsShape shape = NnlsShapeOf(config_, samples);
     if (auto reserved = nnls_.Reserve(shape, arena); !reserved) return reserved;
-    return nnls_.Fit(config_.nnls, shape, inputs, targets, neutral, workspace, report.nnls,
+    return nnls_.Fit(config_.nnls, shape, inputs, targets, t.neutral_sample, workspace, report.nnls,
                      leave_one_out);
   }
   const rbf::RbfShape shape = RbfShapeOf(config_, samples);
   distances_ = arena.MakeArray<float>(samples);
   if (distances_.empty()) return Errc::kFull;
   if (auto reserved = rbf_.Reserve(shape, arena); !reserved) return reserved;
-  return rbf_.Fit(config_.rbf, shape, inputs, targets, workspace, report.fit, leave_one_out);
+  return rbf_.Fit(config_.rbf, shape, inputs, targets, workspace, report.fit, leave_one_out,
+                  t.weights);
 }
 
 void Region::ReadInputs(std::span<const Point3> points_cm, std::span<float> inputs) const noexcept {

@@ -38,9 +38,9 @@ class Region {
   float Evaluate(std::span<const Point3> points_cm, std::span<float> outputs) const noexcept;
 
  private:
-  Result<> Fit(std::span<const float> inputs, std::span<const float> targets, std::size_t samples,
-               std::size_t neutral, Arena& arena, std::span<std::byte> workspace,
-               TrainingReport& report, std::span<float> leave_one_out) noexcept;
+  Result<> Fit(std::span<const float> inputs, std::span<const float> targets, const Training& t,
+               Arena& arena, std::span<std::byte> workspace, TrainingReport& report,
+               std::span<float> leave_one_out) noexcept;
   // Outputs at a point of the region's axes, limited; fills distances_ where the method has them.
   void EvaluateAt(std::span<const float> x, std::span<float> outputs) const noexcept;
   void ReadInputs(std::span<const Point3> points_cm, std::span<float> inputs) const noexcept;

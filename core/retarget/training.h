@@ -57,6 +57,10 @@ struct Training {
   std::size_t neutral_sample = 0;         // the row that is the face at rest
   // The samples are an average face: other performers are taken there by a geometry mapping first.
   bool average_user = false;
+  // How much each sample counts, > 0; empty: all the same. The smoothing of a sample is its
+  // region's divided by this, so a weight of 2 is the sample twice, and a large one holds the
+  // function there. Only Method::kRbf smooths.
+  std::span<const float> weights = {};
 
   std::size_t sample_count() const noexcept {
     return markers.empty() ? 0 : samples.size() / (3 * markers.size());

@@ -29,12 +29,14 @@ TEST(ProfileFile, IsReadAsItWasWritten) {
   TrainingSet written = Example();
   written.regions[1].method = retarget::Method::kNnls;
   written.regions[1].nnls.ridge = 0.25F;
+  written.weights = {1, 2, 3, 4, 1000, 6, 7, 8, 9};
   SaveProfile(scratch / "a.profile", written);
   const TrainingSet read = ReadTrainingSet(scratch / "a.profile");
   EXPECT_EQ(read.markers, written.markers);
   EXPECT_EQ(read.signals, written.signals);
   EXPECT_EQ(read.samples, written.samples);
   EXPECT_EQ(read.targets, written.targets);
+  EXPECT_EQ(read.weights, written.weights);
   EXPECT_EQ(read.neutral_sample, 4U);
   EXPECT_TRUE(read.average_user);
   ASSERT_EQ(read.regions.size(), 2U);

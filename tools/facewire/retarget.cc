@@ -91,8 +91,8 @@ class Character {
   // What the profile's training lacks for the frames written so far.
   std::vector<std::string> MissingPoses() const {
     std::vector<std::string_view> names;
-    for (std::size_t r = 0; r < mapping().region_count(); ++r)
-      names.push_back(mapping().region_name(r));
+    for (std::size_t r = 0; mapping() != nullptr && r < mapping()->region_count(); ++r)
+      names.push_back(mapping()->region_name(r));
     return report_.Lines(names);
   }
 

@@ -29,6 +29,7 @@ class Trial {
     part_.markers = training.markers;
     part_.samples = training.samples;
     part_.neutral_sample = training.neutral_sample;
+    part_.weights = training.weights;
     const std::size_t rows = training.view().sample_count();
     for (const std::uint16_t output : config.outputs)
       part_.signals.push_back(training.signals[output]);

@@ -18,7 +18,7 @@ namespace facewire::tools {
 namespace {
 
 struct TrainOptions {
-  std::string markers, targets, out, regions;
+  std::string markers, targets, weights, out, regions;
   std::string method = "rbf";
   std::string kernel = "multiquadric";
   std::string epsilon = "auto";
@@ -55,6 +55,22 @@ retarget::RegionConfig ToDefaults(const TrainOptions& options) {
   return region;
 }
 
+// One number a row of `markers`, in the only column of the file.
+std::vector<float> ReadWeights(const std::string& path, const std::string& markers,
+                               std::size_t rows) {
+  TrainingTable table = ReadTargets(path);
+  if (table.names.size() != 1 || table.names[0].view() != "weight")
+    throw app::BadInput(path + ":1: expected one column, weight");
+  if (table.rows != rows)
+    throw app::BadInput(path + ": " + std::to_string(table.rows) + " rows, but " + markers +
+                        " has " + std::to_string(rows) + "; each row has a weight");
+  for (std::size_t row = 0; row < rows; ++row)
+    if (!(table.values[row] > 0))
+      throw app::BadInput(path + ": row " + std::to_string(row + 1) +
+                          ": a weight has to be a number above 0");
+  return std::move(table.values);
+}
+
 app::TrainingSet ReadPairs(const TrainOptions& options) {
   TrainingTable markers = ReadSamples(options.markers);
   TrainingTable targets = ReadTargets(options.targets);
@@ -72,6 +88,8 @@ app::TrainingSet ReadPairs(const TrainOptions& options) {
   training.targets = std::move(targets.values);
   training.neutral_sample = options.neutral_row - 1;
   training.average_user = options.average_user;
+  if (!options.weights.empty())
+    training.weights = ReadWeights(options.weights, options.markers, markers.rows);
   return training;
 }
 
@@ -156,6 +174,8 @@ void AddTrain(CLI::App& facewire) {
   train->add_option("--tail-smoothing", options->tail_smoothing,
                     "The same for a linear tail; auto or a number");
   train->add_option("--neutral", options->neutral_row, "Row that is the face at rest, from 1");
+  train->add_option("--weights", options->weights,
+                    "CSV with one column, weight: how much each row counts (default 1)");
   train->add_flag("--average-user", options->average_user,
                   "The rows are an average face: take performers there by their neutral first");
   train->add_option("--regions", options->regions, "TOML file that divides the face");

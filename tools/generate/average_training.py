@@ -2,88 +2,74 @@
 """Makes the training files of app/share/average.profile from renderings of an average head.
 
 Reads   DATA/average/average_{poses,extra_poses,shuffled_poses}.jsonl.gz   landmarks in known poses
-        DATA/models/canonical_face_model.obj, procrustes_basis.json        MediaPipe's canonical face
-Writes  OUT/markers.csv, OUT/targets.csv                                   for facewire train
+Writes  OUT/poses.jsonl, OUT/poses.csv                                     the same in object space, by facewire record
+        OUT/markers.csv, OUT/targets.csv, OUT/weights.csv                  for facewire train
         OUT/average.regions.toml                                           how the face is divided
 
-Run: python3 tools/generate/average_training.py DATA OUT      (needs python3-numpy)
+Run: python3 tools/generate/average_training.py DATA OUT [--facewire build/dev/tools/facewire/facewire]
+     [--without-recorded]      (needs python3-numpy)
 README.md beside this file has the whole recipe and why it is this one.
 """
+import argparse
 import gzip
 import json
 import pathlib
-import sys
+import subprocess
 
 import numpy as np
 
-ROWS = 420
-SEED = 0
-# ARKit's eyeBlink is 1 when the lids touch. In the recorded rows they already touch at 0.83 on
-# average, because looking down and squinting close them too: 1 / 0.83.
-BLINK_GAIN = 1.2
+PARTS = ("poses", "extra_poses", "shuffled_poses")
+SIZE_PX = (640, 480)
+# Of 400 recorded rows. All of them would raise the correlations by 0.002 at most.
+RECORDED = 275
+# A sample's smoothing is divided by its weight. The neutral's makes it exact: a face at rest gives zero. The recorded
+# rows show how shapes go together; with equal weights the more extreme constructed poses drown them.
+NEUTRAL_WEIGHT, RECORDED_WEIGHT = 1000, 8
+# The rendered eyeballs do not turn: the model's eyeLook shapes move lids only. So the irises are carried as an eyeball would
+# carry them. At weight 1, Live Link Face turns the eye by 0.58 to 0.63 rad sideways, 0.62 down and 0.45 up (regression of
+# alex_rom_3's eye angles on its weights).
+EYE_RADIUS_CM = 1.2
+SIDEWAYS_RAD, DOWN_RAD, UP_RAD = 0.6, 0.62, 0.45
 
 RIGHT_LIDS = [33, 7, 163, 144, 145, 153, 154, 155, 133, 173, 157, 158, 159, 160, 161, 246]
 LEFT_LIDS = [263, 249, 390, 373, 374, 380, 381, 382, 362, 398, 384, 385, 386, 387, 388, 466]
-RIGHT_CORNERS, LEFT_CORNERS = [33, 133], [263, 362]
-RIGHT_SOCKET, LEFT_SOCKET = [130, 24, 56, 27], [359, 254, 286, 257]
-RIGHT_IRIS, LEFT_IRIS = [468], [473]
-RIGHT_GAPS = [(159, 145), (158, 153), (160, 144)]
-LEFT_GAPS = [(386, 374), (385, 380), (387, 373)]
+CORNERS = [33, 133, 263, 362]
+SOCKETS = [130, 24, 56, 27, 359, 254, 286, 257]
+IRISES = [468, 473]
+LID_GAPS = [(159, 145), (158, 153), (160, 144), (386, 374), (385, 380), (387, 373)]
 BROWS = [70, 63, 105, 66, 107, 300, 293, 334, 296, 336]
 NOSE_ROOT = [6, 168, 197]
-NOSE = [1, 2, 98, 327, 4, 5]
-CHEEKS = [50, 280, 205, 425, 187, 411, 117, 346]
-CHIN = [152, 148, 377, 199]
 INNER_LIPS = [13, 14, 82, 87, 312, 317, 81, 178, 311, 402, 78, 308, 191, 415]
 OUTER_LIPS = [61, 291, 0, 17, 37, 267, 84, 314, 39, 269, 181, 405, 40, 270]
+UPPER_LIP = [0, 37, 267, 13, 82, 312]
 LIP_GAPS = [(13, 14), (82, 87), (312, 317), (81, 178), (311, 402)]
+CHIN = [172, 397, 400, 176, 175, 394, 169]
+# The rest of the lower face, evenly: each the farthest from those before it and from the lips.
+LOWER_FACE = [454, 234, 448, 228, 419, 196, 147, 376, 36, 266, 132, 361, 4, 207, 427, 137, 366, 451, 231, 116, 345] + CHIN
+EYES = RIGHT_LIDS + LEFT_LIDS + SOCKETS
+MOUTH = INNER_LIPS + OUTER_LIPS + LOWER_FACE
 
 
 def starts(*prefixes):
     return lambda name: name.startswith(prefixes)
 
 
-def eye(side):
-    return lambda n: n.startswith("eye") and n.endswith(side) and not n.startswith("eyeBlink")
+def is_gaze(name):
+    return name.startswith(("eyeLookIn", "eyeLookOut"))
 
 
-# name, targets, points, origin, gaps, gain of the gaps, axes, smoothing, smoothing of the tail
-# Few axes for the lids: they move in few ways, and a lid that closes unlike the training's lids (a plain
-# closing of the average face) then still reads as 0.7 instead of 0.5.
+# name, targets, points, origin, gaps, gain of the gaps, axes, epsilon times median distance, smoothing, smoothing of the tail
 REGIONS = [
-    ("blinkRight", lambda n: n == "eyeBlinkRight", RIGHT_LIDS, RIGHT_CORNERS, RIGHT_GAPS, 3, 8, 0.05, 0.1),
-    ("blinkLeft", lambda n: n == "eyeBlinkLeft", LEFT_LIDS, LEFT_CORNERS, LEFT_GAPS, 3, 8, 0.05, 0.1),
-    ("eyeRight", eye("Right"), RIGHT_LIDS + RIGHT_SOCKET + RIGHT_IRIS, RIGHT_CORNERS, [], 1, 24, 0.5, 1),
-    ("eyeLeft", eye("Left"), LEFT_LIDS + LEFT_SOCKET + LEFT_IRIS, LEFT_CORNERS, [], 1, 24, 0.5, 1),
-    ("brows", starts("brow"), BROWS, NOSE_ROOT + [133, 362], [], 1, 24, 0.5, 1),
-    ("jaw", lambda n: n == "jawOpen", INNER_LIPS, INNER_LIPS, LIP_GAPS, 6, 24, 1, 10),
-    ("mouth", starts("mouth", "cheekPuff", "jawLeft", "jawRight", "jawForward"),
-     INNER_LIPS + OUTER_LIPS + CHIN + NOSE + CHEEKS, [], [], 1, 24, 2, 50),
-    ("cheeks", starts("cheekSquint", "noseSneer"),
-     CHEEKS + NOSE + RIGHT_SOCKET + LEFT_SOCKET + OUTER_LIPS[::3], [], [], 1, 24, 0.5, 10),
+    ("blinks", starts("eyeBlink"), EYES, CORNERS, LID_GAPS, 3, 24, 1, 1, 1),
+    ("eyes", lambda n: n.startswith("eye") and not n.startswith("eyeBlink") and not is_gaze(n), EYES, CORNERS, [], 1, 16,
+     1.5, 0.66, 3),
+    ("gaze", is_gaze, IRISES, CORNERS, [], 1, 0, 1, 0.5, 1),
+    ("brows", starts("brow"), BROWS, NOSE_ROOT + [133, 362], [], 1, 24, 1, 1, 1),
+    ("jaw", lambda n: n == "jawOpen", INNER_LIPS + OUTER_LIPS + CHIN, UPPER_LIP, LIP_GAPS, 8, 24, 1, 0.5, 20),
+    ("mouth", starts("mouth", "cheekPuff", "jawLeft", "jawRight", "jawForward"), MOUTH, NOSE_ROOT + CORNERS, [], 1, 32,
+     1.25, 2, 190),
+    ("cheeks", starts("cheekSquint", "noseSneer"), MOUTH + EYES + BROWS, [], [], 1, 16, 2, 1.5, 200),
 ]
-
-class ObjectSpace:
-    """Landmarks in pixels to the canonical face's space (cm): the weighted similarity fit of core/pose."""
-
-    def __init__(self, models):
-        lines = (models / "canonical_face_model.obj").read_text().splitlines()
-        face = np.array([[float(t) for t in l.split()[1:4]] for l in lines if l.startswith("v ")])
-        basis = json.loads((models / "procrustes_basis.json").read_text())["procrustes_landmark_basis"]
-        self.index = np.array([b[0] for b in basis])
-        self.weight = np.array([b[1] for b in basis])
-        self.weight /= self.weight.sum()
-        self.target = face[self.index]
-
-    def __call__(self, landmarks):
-        points = np.asarray(landmarks, float) * [1, -1, -1]
-        source = points[self.index]
-        mean_s, mean_t = self.weight @ source, self.weight @ self.target
-        s, t = source - mean_s, self.target - mean_t
-        u, sigma, v = np.linalg.svd((t * self.weight[:, None]).T @ s)
-        sign = np.array([1, 1, np.sign(np.linalg.det(u @ v))])
-        scale = (sigma * sign).sum() / (self.weight @ (s**2).sum(1))
-        return scale * (points - mean_s) @ ((u * sign) @ v).T + mean_t
 
 
 def read(path):
@@ -91,24 +77,65 @@ def read(path):
         return [json.loads(line) for line in lines]
 
 
-def choose(poses):
-    """The frontal neutral first, every constructed pose, then recorded and shuffled ones."""
-    rng = np.random.RandomState(SEED)
+def to_object_space(facewire, poses, markers, out):
+    """Poses x markers x 3, cm: as facewire sees a face, so that training and use see the same."""
+    with open(out / "poses.jsonl", "w") as file:
+        for i, pose in enumerate(poses):
+            json.dump({"frame": i, "t_us": i * 1000000 // 30, "width": SIZE_PX[0], "height": SIZE_PX[1],
+                       "landmarks": pose["landmarks"]}, file)
+            file.write("\n")
+    subprocess.run([facewire, "record", out / "poses.jsonl", "--unfiltered", "--markers",
+                    ",".join(f"lm{m}" for m in markers), "--out", out / "poses.csv"], check=True)
+    table = np.genfromtxt(out / "poses.csv", delimiter=",", names=True)
+    columns = [table[f"lm{m}_{axis}"] for m in markers for axis in "xyz"]
+    return np.stack(columns, 1).reshape(len(poses), len(markers), 3)
+
+
+def most_different(rows, count):
+    """Indices of rows: the first, then always the one farthest from all before."""
+    chosen = [0]
+    distance = np.linalg.norm(rows - rows[0], axis=1)
+    while len(chosen) < count:
+        chosen.append(int(distance.argmax()))
+        distance = np.minimum(distance, np.linalg.norm(rows - rows[chosen[-1]], axis=1))
+    return chosen
+
+
+def choose(poses, weights, without_recorded):
+    """The frontal neutral first, then constructed poses, neutrals in other head poses, and recorded or shuffled rows."""
     kinds = np.array([p["kind"] for p in poses])
-    first = [i for i, p in enumerate(poses) if p["id"] == "neutral_00"]
-    made = [i for k in ("headneutral", "combo", "pair") for i in np.flatnonzero(kinds == k)]
     # A third of a weak shape is within the tracker's noise.
-    made += [i for i in np.flatnonzero(kinds == "unit") if "035" not in poses[i]["id"]]
-    real = list(rng.permutation(np.flatnonzero(kinds == "real")))[:160]
-    shuffled = list(rng.permutation(np.flatnonzero(kinds == "shuffled")))
-    return (first + made + real + shuffled)[:ROWS]
+    strong = np.array(["035" not in p["id"] for p in poses])
+    first = [i for i, p in enumerate(poses) if p["id"] == "neutral_00"]
+    made = np.flatnonzero(np.isin(kinds, ["unit", "pair", "combo"]) & strong)
+    turned = np.flatnonzero(kinds == "headneutral")
+    if without_recorded:
+        rest = np.flatnonzero(kinds == "shuffled")
+    else:
+        recorded = np.flatnonzero(kinds == "real")
+        rest = recorded[most_different(weights[recorded], RECORDED)]
+    return np.concatenate([first, made, turned, rest]).astype(int)
 
 
-def inputs(x, marker, points, origin, gaps, gain):
-    at = x[:, [marker[p] for p in points]]
+def turn_eyes(x, markers, rows, weights, names):
+    """Gives the neutrals in other head poses a gaze each: irises and targets."""
+    gazes = [(side, up) for side in (-1, -2 / 3, -1 / 3, 1 / 3, 2 / 3, 1) for up in (-0.4, 0, 0, 0.4)]
+    for row, (side, down) in zip(rows, gazes):
+        yaw = SIDEWAYS_RAD * side
+        pitch = down * (DOWN_RAD if down > 0 else UP_RAD)
+        for iris in IRISES:
+            x[row, markers.index(iris)] += EYE_RADIUS_CM * np.array(
+                [np.sin(yaw), -np.sin(pitch) * np.cos(yaw), np.cos(yaw) * np.cos(pitch) - 1])
+        towards = ("eyeLookOutLeft", "eyeLookInRight") if side > 0 else ("eyeLookInLeft", "eyeLookOutRight")
+        for name in towards:
+            weights[row, names.index(name)] = abs(side)
+
+
+def inputs(x, markers, points, origin, gaps, gain):
+    at = x[:, [markers.index(p) for p in points]]
     if origin:
-        at = at - x[:, [marker[p] for p in origin]].mean(1, keepdims=True)
-    heights = [gain * (x[:, marker[a], 1] - x[:, marker[b], 1]) for a, b in gaps]
+        at = at - x[:, [markers.index(p) for p in origin]].mean(1, keepdims=True)
+    heights = [gain * (x[:, markers.index(a), 1] - x[:, markers.index(b), 1]) for a, b in gaps]
     return np.c_[at.reshape(len(x), -1), np.array(heights).T.reshape(len(x), -1)]
 
 
@@ -117,34 +144,15 @@ def median_distance(f):
     return np.median(d[np.triu_indices(len(f), 1)])
 
 
-def main():
-    data, out = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
-    out.mkdir(parents=True, exist_ok=True)
-    poses = [p for part in ("poses", "extra_poses", "shuffled_poses")
-             for p in read(data / f"average/average_{part}.jsonl.gz")]
-    poses = [poses[i] for i in choose(poses)]
-    names = json.loads((data / "average/average_poses.header.json").read_text())["weight_names"]
-    fit = ObjectSpace(data / "models")
-    markers = sorted({m for r in REGIONS for m in r[2] + r[3] + [e for d in r[4] for e in d]})
-    x = np.array([fit(p["landmarks"])[markers] for p in poses]).round(4)
-    weights = np.array([[p["weights"].get(n, 0) for n in names] for p in poses])
-    blink = [names.index("eyeBlinkLeft"), names.index("eyeBlinkRight")]
-    weights[:, blink] = np.minimum(1, BLINK_GAIN * weights[:, blink])
+def write_table(path, names, rows):
+    np.savetxt(path, rows, fmt="%.4f", delimiter=",", header=",".join(names), comments="")
 
-    with open(out / "markers.csv", "w") as f:
-        f.write(",".join(f"lm{m}_{axis}" for m in markers for axis in "xyz") + "\n")
-        for row in x:
-            f.write(",".join(f"{v:.4f}" for v in row.ravel()) + "\n")
-    with open(out / "targets.csv", "w") as f:
-        f.write(",".join(names) + "\n")
-        for row in weights:
-            f.write(",".join(f"{v:.4f}" for v in row) + "\n")
 
-    index = {m: i for i, m in enumerate(markers)}
-    with open(out / "average.regions.toml", "w") as f:
+def write_regions(path, x, markers, names):
+    with open(path, "w") as f:
         f.write("# Written by tools/generate/average_training.py; for facewire train --regions.\n")
-        for name, wanted, points, origin, gaps, gain, axes, smoothing, tail_smoothing in REGIONS:
-            epsilon = 1 / median_distance(inputs(x, index, points, origin, gaps, gain))
+        for name, wanted, points, origin, gaps, gain, axes, radius, smoothing, tail_smoothing in REGIONS:
+            epsilon = radius / median_distance(inputs(x, markers, points, origin, gaps, gain))
             f.write(f'\n[[region]]\nname = "{name}"\nkernel = "multiquadric"\ntail = "linear"\n')
             f.write(f"epsilon = {epsilon:.4f}\nsmoothing = {smoothing}\n")
             f.write(f"tail_smoothing = {tail_smoothing}\n")
@@ -156,6 +164,31 @@ def main():
             if gaps:
                 f.write(f"gap_gain = {gain}\n")
                 f.write("gaps = " + json.dumps([[f"lm{a}", f"lm{b}"] for a, b in gaps]) + "\n")
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Makes the training files of app/share/average.profile.")
+    parser.add_argument("data", type=pathlib.Path)
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("--facewire", default="build/dev/tools/facewire/facewire", help="the command (default: %(default)s)")
+    parser.add_argument("--without-recorded", action="store_true", help="leave the recorded rows out: a measure of generality")
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+
+    poses = [p for part in PARTS for p in read(options.data / f"average/average_{part}.jsonl.gz")]
+    names = json.loads((options.data / "average/average_poses.header.json").read_text())["weight_names"]
+    markers = sorted({m for r in REGIONS for m in r[2] + r[3] + [e for d in r[4] for e in d]})
+    x = to_object_space(options.facewire, poses, markers, options.out)
+    targets = np.array([[p["weights"].get(n, 0) for n in names] for p in poses])
+    turn_eyes(x, markers, [i for i, p in enumerate(poses) if p["kind"] == "headneutral"], targets, names)
+    chosen = choose(poses, targets, options.without_recorded)
+    weights = [NEUTRAL_WEIGHT if i == chosen[0] else RECORDED_WEIGHT if poses[i]["kind"] == "real" else 1 for i in chosen]
+
+    x = x[chosen].round(4)
+    write_table(options.out / "markers.csv", [f"lm{m}_{axis}" for m in markers for axis in "xyz"], x.reshape(len(x), -1))
+    write_table(options.out / "targets.csv", names, targets[chosen])
+    write_table(options.out / "weights.csv", ["weight"], weights)
+    write_regions(options.out / "average.regions.toml", x, markers, names)
 
 
 if __name__ == "__main__":

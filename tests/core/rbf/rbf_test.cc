@@ -15,7 +15,7 @@ namespace {
 // An Rbf with its memory, fitted once.
 struct Context {
   RbfConfig config;
-  std::vector<float> samples, targets, errors;
+  std::vector<float> samples, targets, errors, weights;
   std::size_t inputs = 1, outputs = 1;
   std::vector<std::byte> block, workspace;
   Rbf rbf;
@@ -28,7 +28,7 @@ struct Context {
     Arena arena(block);
     EXPECT_TRUE(rbf.Reserve(shape, arena));
     errors.resize(targets.size());
-    return rbf.Fit(config, shape, samples, targets, workspace, report, errors);
+    return rbf.Fit(config, shape, samples, targets, workspace, report, errors, weights);
   }
   std::vector<float> At(std::vector<float> x) {
     std::vector<float> y(outputs, -99.0F);
@@ -321,6 +321,45 @@ TEST(Rbf, FitsAgainInTheSameMemoryWithFewerSamples) {
   ASSERT_TRUE(c.rbf.Fit(c.config, fewer, samples, targets, c.workspace, c.report));
   EXPECT_NEAR(c.At({5})[0], 7, 1e-4);
   EXPECT_NEAR(c.At({6})[0], 8, 1e-4);
+}
+
+TEST(Rbf, ASampleOfWeightTwoIsTheSampleTwice) {
+  Context twice;
+  twice.config = {.tail = Tail::kLinear, .epsilon = 1, .smoothing = 0.5F, .tail_smoothing = 0.1F};
+  twice.samples = {0, 1, 3, 1};
+  twice.targets = {0, 2, 1, 2};
+  ASSERT_TRUE(twice.Fit());
+  Context once = twice;
+  once.samples.pop_back();
+  once.targets.pop_back();
+  once.weights = {1, 2, 1};
+  ASSERT_TRUE(once.Fit());
+  for (const float x : {-1.0F, 0.5F, 1.0F, 2.5F})
+    EXPECT_NEAR(once.At({x})[0], twice.At({x})[0], 1e-5);
+}
+
+TEST(Rbf, ALargeWeightHoldsTheFunctionAtItsSample) {
+  Context c;
+  c.config = {.epsilon = 1, .smoothing = 1};
+  c.samples = {0, 1, 2};
+  c.targets = {0, 1, 0};
+  ASSERT_TRUE(c.Fit());
+  EXPECT_GT(std::abs(c.At({0})[0]), 0.1F);
+  c.weights = {1000, 1, 1};
+  ASSERT_TRUE(c.Fit());
+  EXPECT_NEAR(c.At({0})[0], 0, 1e-2);
+}
+
+TEST(Rbf, WeightsHaveToBePositiveAndOneForEachSample) {
+  Context c;
+  c.config = {.epsilon = 1, .smoothing = 1};
+  c.samples = {0, 1};
+  c.targets = {0, 1};
+  for (const std::vector<float>& weights :
+       {std::vector<float>{1}, {1, 0}, {1, -1}, {1, std::numeric_limits<float>::quiet_NaN()}}) {
+    c.weights = weights;
+    EXPECT_EQ(c.Fit().error(), Errc::kInvalidArgument);
+  }
 }
 
 }  // namespace

@@ -85,6 +85,29 @@ TEST(ExpressionMapping, EverySignalBelongsToExactlyOneRegion) {
   EXPECT_EQ(ExampleMapping{}.Configure(twice).error(), Errc::kInvalidArgument);
 }
 
+TEST(ExpressionMapping, WeightsHoldTheSmoothedFunctionAtTheNeutral) {
+  TrainingExample example;
+  for (RegionConfig& region : example.regions) region.rbf.smoothing = 2;
+  ExampleMapping smooth;
+  ASSERT_TRUE(smooth.Configure(example));
+  ExampleMapping held;
+  example.weights.assign(example.view().sample_count(), 1);
+  example.weights[0] = 1000;
+  ASSERT_TRUE(held.Configure(example));
+  const auto neutral = TrainingExample::Points(0, 0);
+  EXPECT_GT(smooth.At(neutral)[0], 0.01F);
+  EXPECT_NEAR(held.At(neutral)[0], 0, 1e-3);
+}
+
+TEST(ExpressionMapping, RefusesWeightsThatDoNotBelongToTheSamples) {
+  TrainingExample example;
+  example.weights = {1, 2};
+  EXPECT_EQ(ExampleMapping{}.Configure(example).error(), Errc::kInvalidArgument);
+  example.weights.assign(example.view().sample_count(), 1);
+  example.weights[3] = 0;
+  EXPECT_EQ(ExampleMapping{}.Configure(example).error(), Errc::kInvalidArgument);
+}
+
 TEST(ExpressionMapping, NamesTheRegionAndTheSamplesThatCoincide) {
   TrainingExample example;
   for (RegionConfig& region : example.regions) region.rbf = {.epsilon = 1};

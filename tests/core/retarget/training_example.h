@@ -15,6 +15,7 @@ struct TrainingExample {
   std::vector<RegionConfig> regions;
   bool average_user = true;
   std::size_t neutral_sample = 0;
+  std::vector<float> weights;
 
   static ShortName Named(std::string_view name) {
     return ShortName::From(name).value_or(ShortName{});
@@ -56,7 +57,7 @@ struct TrainingExample {
   }
 
   Training view() const {
-    return {markers, signals, samples, targets, regions, neutral_sample, average_user};
+    return {markers, signals, samples, targets, regions, neutral_sample, average_user, weights};
   }
 };
 

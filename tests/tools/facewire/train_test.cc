@@ -175,6 +175,28 @@ TEST(Train, TakesTheMeanDistanceFromTheCommandLineAndFromARegion) {
   EXPECT_EQ(read.regions[0].rbf.kernel, rbf::Kernel::kThinPlate);
 }
 
+TEST(Train, AWeightHoldsARowThatSmoothingWouldMove) {
+  Context c;
+  const auto blink_at_rest = [&] { return c.At({{0, 0, 0}, {3, 3, 0}})[1]; };
+  const std::vector<std::string> settings = {"--smoothing", "2", "--epsilon", "1"};
+  c.Train(settings);
+  EXPECT_GT(blink_at_rest(), 0.05F);
+  const std::string weights = c.scratch.Write("w.csv", "weight\n1000\n1\n1\n1\n1\n").string();
+  c.Train({"--smoothing", "2", "--epsilon", "1", "--weights", weights});
+  EXPECT_NEAR(blink_at_rest(), 0, 1e-2);
+}
+
+TEST(Train, WeightsThatDoNotFitAreRefused) {
+  const auto with = [](const char* weights) {
+    Context c;
+    return c.Error({"--weights", c.scratch.Write("w.csv", weights).string()});
+  };
+  EXPECT_THAT(with("weight\n1\n1\n"), HasSubstr("w.csv: 2 rows, but"));
+  EXPECT_THAT(with("heft\n1\n1\n1\n1\n1\n"), HasSubstr("w.csv:1: expected one column, weight"));
+  EXPECT_THAT(with("weight\n1\n1\n0\n1\n1\n"),
+              HasSubstr("row 3: a weight has to be a number above 0"));
+}
+
 TEST(Train, RegionsKeepTheirMarkersApart) {
   Context c;
   const auto regions = c.scratch.Write("r.toml",
