@@ -130,7 +130,8 @@ TEST(FacewireRetargetWithoutProfile, NamesTheMarkersThatTheRigMisses) {
                    scratch.Write("rig.toml", RigOf(name, 3)), "--neutral", "0:1", "--out",
                    scratch.Path("out.csv")});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("the rig needs markers that it does not have: L1, L2"));
+  EXPECT_THAT(outcome.err, HasSubstr("the rig: there is no marker L1"));
+  EXPECT_THAT(outcome.err, HasSubstr("no L2"));
 }
 
 TEST(FacewireRetargetWithoutProfile, SaysWhyAParameterCannotMove) {
