@@ -251,9 +251,9 @@ void Application::Open() {
 }
 
 // Why there is no control socket although there should be one; "" when all is well. A puppet that
-// nobody on the board can command is still a puppet, so only another service at the
-// same place is a reason not to start: two would fight over one camera and one puppet. Mock
-// hardware leaves the device's own socket alone.
+// nobody on the board can command is still a puppet, so only another service at the same place is a
+// reason not to start: two would fight over one camera and one puppet. Mock hardware leaves the
+// device's own socket alone.
 std::string Application::OpenControl() {
   const std::filesystem::path& socket = config_.control.socket;
   if (socket.empty() || (options_.fake && socket == ControlConfig{}.socket)) return "";

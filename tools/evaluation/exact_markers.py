@@ -3,13 +3,14 @@ import numpy as np
 
 from evaluation import metrics
 from evaluation.commands import write_csv, write_markers, write_parameter_rig
-from evaluation.report import Row, Section
+from evaluation.report import LeftOut, Row, Section
 
 # Options of `facewire train` for each method of the table.
 METHODS = {
     "rbf": ["--tail", "linear"],
     "nnls": ["--method", "nnls"],
-    "40 principal axes": ["--tail", "linear", "--axes", "40"],
+    # In 40 axes the weakest poses are hardly different from the neutral, so none can be met exactly.
+    "40 principal axes": ["--tail", "linear", "--axes", "40", "--smoothing", "0.01"],
     "51 principal axes": ["--tail", "linear", "--axes", "51"],
 }
 # facts/retargeting.md: correlation, mean absolute error
@@ -40,7 +41,11 @@ def measure(context):
         take = np.concatenate([np.repeat(neutral[None], NEUTRAL_FRAMES, 0), points])
         takes[person] = write_markers(commands.work / f"exact_{person}.csv", names, take, 100)
     for method, options in METHODS.items():
-        commands.facewire("train", "--markers", markers_csv, "--targets", targets_csv, "--out", profile, *options)
+        try:
+            commands.facewire("train", "--markers", markers_csv, "--targets", targets_csv, "--out", profile, *options)
+        except LeftOut as why:
+            section.left_out.append(f"{method}: {why}")
+            continue
         for person, take in takes.items():
             poses = commands.retarget(take, rig, f"0:{NEUTRAL_FRAMES}", profile)
             ours = metrics.hold(np.stack([poses[s] for s in shapes], 1))[NEUTRAL_FRAMES:]

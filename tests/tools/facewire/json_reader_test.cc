@@ -36,7 +36,8 @@ TEST(JsonReader, StaysWhereItIsWhenItDoesNotFindWhatItLooksFor) {
     EXPECT_FALSE(text.Skip()) << broken;
     EXPECT_EQ(text.AtEnd(), std::string(broken).empty()) << broken;
   }
-  Reader deep(std::string(100000, '['));
+  const std::string brackets(100000, '[');
+  Reader deep(brackets);
   EXPECT_FALSE(deep.Skip());
 }
 
