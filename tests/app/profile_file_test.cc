@@ -19,9 +19,9 @@ using testing::HasSubstr;
 
 TrainingSet Example() {
   const TrainingExample example;
-  return {example.markers,     example.signals, example.samples,
-          example.targets,     example.regions, 4,
-          example.average_user};
+  return {example.markers,      example.signals, example.samples,
+          example.targets,      example.regions, 4,
+          example.average_user, example.weights};
 }
 
 TEST(ProfileFile, IsReadAsItWasWritten) {

@@ -36,7 +36,6 @@ def parse(arguments):
   synth/A, synth/B         video.mp4, truth.json.gz, neutral_markers.csv, pair_markers.csv.gz
   synth/                   pair_markers_weights.csv.gz, training_pairs_E.json.gz
   average/                 crosstalk_poses.jsonl.gz, and what tools/generate/average_training.py reads
-  models/                  canonical_face_model.obj, procrustes_basis.json
   markers/                 AnimFace_*_60fps.csv.gz
 The figures solver and speed need none of it, real-people only the footage of tools/setup.""")
     parser.add_argument("data", metavar="DATA_FOLDER", type=pathlib.Path)

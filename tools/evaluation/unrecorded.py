@@ -11,13 +11,14 @@ def train(context):
     commands, out = context.commands, context.commands.work / "unrecorded"
     out.mkdir(exist_ok=True)
     for part in ("average/average_poses.jsonl.gz", "average/average_extra_poses.jsonl.gz",
-                 "average/average_shuffled_poses.jsonl.gz", "models/canonical_face_model.obj"):
+                 "average/average_shuffled_poses.jsonl.gz"):
         context.data.path(part)
     commands.run(sys.executable, commands.root / "tools/generate/average_training.py", context.data.folder, out,
-                 "--without-recorded")
+                 "--facewire", commands.facewire_path, "--without-recorded")
     profile = out / "unrecorded.profile"
-    commands.facewire("train", "--markers", out / "markers.csv", "--targets", out / "targets.csv", "--regions",
-                      out / "average.regions.toml", "--average-user", "--neutral", "1", "--out", profile)
+    commands.facewire("train", "--markers", out / "markers.csv", "--targets", out / "targets.csv", "--weights",
+                      out / "weights.csv", "--regions", out / "average.regions.toml", "--average-user",
+                      "--neutral", "1", "--out", profile)
     return profile
 
 

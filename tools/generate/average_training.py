@@ -60,12 +60,12 @@ def is_gaze(name):
 
 # name, targets, points, origin, gaps, gain of the gaps, axes, epsilon times median distance, smoothing, smoothing of the tail
 REGIONS = [
-    ("blinks", starts("eyeBlink"), EYES, CORNERS, LID_GAPS, 3, 24, 1, 1, 1),
+    ("blinks", starts("eyeBlink"), EYES, CORNERS, LID_GAPS, 3, 24, 1, 0.6, 1),
     ("eyes", lambda n: n.startswith("eye") and not n.startswith("eyeBlink") and not is_gaze(n), EYES, CORNERS, [], 1, 16,
-     1.5, 0.66, 3),
+     1.5, 1.5, 6),
     ("gaze", is_gaze, IRISES, CORNERS, [], 1, 0, 1, 0.5, 1),
     ("brows", starts("brow"), BROWS, NOSE_ROOT + [133, 362], [], 1, 24, 1, 1, 1),
-    ("jaw", lambda n: n == "jawOpen", INNER_LIPS + OUTER_LIPS + CHIN, UPPER_LIP, LIP_GAPS, 8, 24, 1, 0.5, 20),
+    ("jaw", lambda n: n == "jawOpen", INNER_LIPS + OUTER_LIPS + CHIN, UPPER_LIP, LIP_GAPS, 16, 24, 1, 0.5, 40),
     ("mouth", starts("mouth", "cheekPuff", "jawLeft", "jawRight", "jawForward"), MOUTH, NOSE_ROOT + CORNERS, [], 1, 32,
      1.25, 2, 190),
     ("cheeks", starts("cheekSquint", "noseSneer"), MOUTH + EYES + BROWS, [], [], 1, 16, 2, 1.5, 200),

@@ -178,11 +178,13 @@ TEST(Train, TakesTheMeanDistanceFromTheCommandLineAndFromARegion) {
 TEST(Train, AWeightHoldsARowThatSmoothingWouldMove) {
   Context c;
   const auto blink_at_rest = [&] { return c.At({{0, 0, 0}, {3, 3, 0}})[1]; };
-  const std::vector<std::string> settings = {"--smoothing", "2", "--epsilon", "1"};
+  std::vector<std::string> settings = {"--smoothing", "2",         "--tail-smoothing",
+                                       "50",          "--epsilon", "1"};
   c.Train(settings);
   EXPECT_GT(blink_at_rest(), 0.05F);
   const std::string weights = c.scratch.Write("w.csv", "weight\n1000\n1\n1\n1\n1\n").string();
-  c.Train({"--smoothing", "2", "--epsilon", "1", "--weights", weights});
+  settings.insert(settings.end(), {"--weights", weights});
+  c.Train(settings);
   EXPECT_NEAR(blink_at_rest(), 0, 1e-2);
 }
 
