@@ -25,9 +25,6 @@ struct RbfConfig {
   // The same for the tail: with 0 the tail is fitted freely, which needs samples in general
   // position and more of them than inputs.
   float tail_smoothing = 0;
-  // How far Evaluate may be from the solution in double precision at any sample, as a part of the
-  // largest target of that output. More is refused.
-  float max_rounding = 1e-3F;
 };
 
 // Numbers of samples, inputs of the function and outputs.

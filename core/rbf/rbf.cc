@@ -141,7 +141,7 @@ Result<> Rbf::Fit(const RbfConfig& config, const RbfShape& shape, std::span<cons
   epsilon = static_cast<float>(epsilon);
   if (auto solved = system.Solve(config, epsilon, report); !solved) return solved;
   Store(system, config.kernel);
-  if (!AgreesAtSamples(system, config.max_rounding, exact, rounded)) {
+  if (!AgreesAtSamples(system, exact, rounded)) {
     shape_ = {};
     system.Blame(report);
     return Errc::kSingular;
@@ -150,13 +150,13 @@ Result<> Rbf::Fit(const RbfConfig& config, const RbfShape& shape, std::span<cons
   return {};
 }
 
-bool Rbf::AgreesAtSamples(const System& system, float max_rounding, std::span<double> exact,
+bool Rbf::AgreesAtSamples(const System& system, std::span<double> exact,
                           std::span<float> rounded) const noexcept {
   for (std::size_t s = 0; s < shape_.samples; ++s) {
     system.Evaluate(system.sample(s), exact);
     Evaluate(system.sample(s), rounded);
     for (std::size_t o = 0; o < shape_.outputs; ++o)
-      if (!(std::abs(exact[o] - rounded[o]) <= max_rounding * system.largest_target(o)))
+      if (!(std::abs(exact[o] - rounded[o]) <= kMaxRounding * system.largest_target(o)))
         return false;
   }
   return true;

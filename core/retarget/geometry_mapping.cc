@@ -15,10 +15,7 @@ constexpr rbf::RbfConfig kConfig = {
     .smoothing = 0.001F,
     // Next to nothing, so that a different scale along any axis is followed exactly; enough that
     // four points or fewer, or all in one plane, can be solved.
-    .tail_smoothing = 0.01F,
-    // What the alignment leaves over is small, 1 mm say, and a twentieth of that does no harm; a
-    // face that is refused because its lips touch does.
-    .max_rounding = 0.05F};
+    .tail_smoothing = 0.01F};
 
 constexpr rbf::RbfShape Shape(std::size_t points) noexcept {
   return {.samples = points, .inputs = 3, .outputs = 3, .tail = kConfig.tail};

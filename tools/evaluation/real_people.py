@@ -75,8 +75,8 @@ def measure(context):
     mouth_and_brows = values[:, [ALL.index(s) for s in quiet]]
 
     points = read_landmarks(landmarks)[:len(values)]
-    eyes_cm = np.linalg.norm(points[:, 33] - points[:, 263], axis=1).mean()
-    face = metrics.align(points, points[int(NEUTRAL.split(":")[0])], SKULL)[:, MOUTH_AND_BROWS] / eyes_cm
+    eyes_px = np.linalg.norm(points[:, 33] - points[:, 263], axis=1).mean()
+    face = metrics.align(points, points[int(NEUTRAL.split(":")[0])], SKULL)[:, MOUTH_AND_BROWS] / eyes_px
     inside = range(FAR, len(points) - FAR)
     apexes = [at for at in metrics.blinks(lid_opening(points), MEDIAN_HALF) if at in inside]
     blinking = np.zeros(len(points), bool)
