@@ -68,6 +68,7 @@ void WriteRegion(ByteWriter& out, const RegionConfig& region) {
   out.F32(region.rbf.tail_smoothing);
   out.F32(region.nnls.ridge);
   out.F32(region.gap_gain);
+  out.F32(region.dead_zone);
   WriteIndices(out, region.points.span());
   WriteIndices(out, region.origin.span());
   out.U16(static_cast<std::uint16_t>(region.gaps.size()));
@@ -76,6 +77,7 @@ void WriteRegion(ByteWriter& out, const RegionConfig& region) {
     out.U16(gap.lower);
   }
   WriteIndices(out, region.outputs.span());
+  WriteIndices(out, region.ignores.span());
 }
 
 // A profile whose checksum is right and whose content is not: made by something else.
@@ -155,6 +157,7 @@ class Parser {
     region.rbf.tail_smoothing = in_.F32();
     region.nnls.ridge = in_.F32();
     region.gap_gain = in_.F32();
+    region.dead_zone = in_.F32();
     ReadIndices(region.points);
     ReadIndices(region.origin);
     const std::size_t gaps = in_.U16();
@@ -163,6 +166,7 @@ class Parser {
       Expect(in_.ok() && region.gaps.try_push({upper, in_.U16()}));
     }
     ReadIndices(region.outputs);
+    ReadIndices(region.ignores);
     return region;
   }
 

@@ -11,7 +11,9 @@ namespace facewire::retarget {
 namespace {
 
 bool IsValid(const RegionConfig& region, std::size_t markers, std::size_t signals) noexcept {
+  constexpr float kMaxDeadZone = 0.25F;
   const auto is_marker = [markers](std::uint16_t i) { return i < markers; };
+  const auto is_signal = [signals](std::uint16_t i) { return i < signals; };
   return region.inputs() > 0 && !region.outputs.empty() && region.axes <= region.inputs() &&
          std::isfinite(region.gap_gain) && std::ranges::all_of(region.points, is_marker) &&
          std::ranges::all_of(region.origin, is_marker) &&
@@ -19,7 +21,10 @@ bool IsValid(const RegionConfig& region, std::size_t markers, std::size_t signal
                              [&](const RegionConfig::Gap& gap) {
                                return is_marker(gap.upper) && is_marker(gap.lower);
                              }) &&
-         std::ranges::all_of(region.outputs, [signals](std::uint16_t i) { return i < signals; });
+         region.dead_zone >= 0 && region.dead_zone <= kMaxDeadZone &&
+         (region.ignores.empty() || region.axes > 0) &&
+         std::ranges::all_of(region.ignores, is_signal) &&
+         std::ranges::all_of(region.outputs, is_signal);
 }
 
 bool IsValid(const Training& t) noexcept {
@@ -97,13 +102,18 @@ Result<> ExpressionMapping::Configure(const Training& t, Arena& arena,
   for (std::size_t i = 0; i < columns; ++i)
     if (!neutral_.try_push({neutral[3 * i], neutral[3 * i + 1], neutral[3 * i + 2]}))
       return Errc::kFull;
-  if (!regions_.try_resize(t.regions.size())) return Errc::kFull;
+  if (!regions_.try_resize(t.regions.size()) || !ranges_.try_resize(t.signals.size()))
+    return Errc::kFull;
   for (std::size_t r = 0; r < t.regions.size(); ++r) {
     report.region = r;
     if (auto fitted =
             regions_[r].Configure(t.regions[r], t, arena, workspace, report, leave_one_out);
         !fitted)
       return fitted;
+    for (std::size_t o = 0; o < t.regions[r].outputs.size(); ++o) {
+      const SoftRange& range = regions_[r].range(o);
+      ranges_[t.regions[r].outputs[o]] = range.high - range.low;
+    }
   }
   return {};
 }

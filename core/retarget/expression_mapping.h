@@ -37,6 +37,8 @@ class ExpressionMapping {
 
   std::span<const ShortName> markers() const noexcept { return markers_.span(); }
   std::span<const ShortName> signals() const noexcept { return signals_.span(); }
+  // How far each signal's targets are apart.
+  std::span<const float> ranges() const noexcept { return ranges_.span(); }
   // The marker positions of the neutral sample, cm.
   std::span<const Point3> neutral_cm() const noexcept { return neutral_.span(); }
   bool average_user() const noexcept { return average_user_; }
@@ -66,6 +68,7 @@ class ExpressionMapping {
   InlineVector<std::int16_t, kMaxMarkers> point_indices_;
   InlineVector<Point3, kMaxMarkers> neutral_;
   InlineVector<ShortName, kMaxSignals> signals_;
+  InlineVector<float, kMaxSignals> ranges_;  // one per signal
   InlineVector<Region, kMaxRegions> regions_;
   bool average_user_ = false;
   bool reads_landmarks_ = false;

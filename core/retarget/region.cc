@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/rbf/principal_axes.h"
 
@@ -10,12 +11,12 @@ namespace {
 
 constexpr std::size_t kMaxInputs = kMaxExpressionInputs + kMaxRegionGaps;
 
-SoftRange RangeOf(const Training& t, std::size_t signal) noexcept {
+SoftRange RangeOf(const Training& t, std::size_t signal, float dead_zone) noexcept {
   const auto target = [&](std::size_t sample) {
     return t.targets[sample * t.signals.size() + signal];
   };
   const float neutral = target(t.neutral_sample);
-  SoftRange range{neutral, neutral, neutral};
+  SoftRange range{neutral, neutral, neutral, dead_zone};
   for (std::size_t s = 0; s < t.sample_count(); ++s) {
     range.low = std::min(range.low, target(s));
     range.high = std::max(range.high, target(s));
@@ -29,6 +30,65 @@ rbf::RbfShape RbfShapeOf(const RegionConfig& config, std::size_t samples) noexce
 
 nnls::NnlsShape NnlsShapeOf(const RegionConfig& config, std::size_t samples) noexcept {
   return {samples, config.dimensions(), config.outputs.size()};
+}
+
+// Whether the sample differs from the neutral one in the signals to be ignored, and in no others.
+bool ShowsOnly(const RegionConfig& config, const Training& t, std::size_t sample) noexcept {
+  bool shows = false;
+  for (std::size_t o = 0; o < t.signals.size(); ++o) {
+    if (t.targets[sample * t.signals.size() + o] ==
+        t.targets[t.neutral_sample * t.signals.size() + o])
+      continue;
+    if (std::ranges::find(config.ignores, o) == config.ignores.end()) return false;
+    shows = true;
+  }
+  return shows;
+}
+
+void Normalise(std::span<float> v) noexcept {
+  float squares = 0;
+  for (const float x : v) squares += x * x;
+  const float scale = squares > 0 ? 1 / std::sqrt(squares) : 0;
+  for (float& x : v) x *= scale;
+}
+
+// `inputs`: samples x direction.size() by rows. The main direction in which they go, from the
+// neutral sample, where only the ignored signals show; length 1, found by power iteration. Zero
+// where no sample shows only them.
+void FindIgnored(const RegionConfig& config, const Training& t, std::span<const float> inputs,
+                 std::span<float> direction) noexcept {
+  constexpr int kRounds = 50;
+  const std::size_t n = direction.size();
+  const auto row = [&](std::size_t sample) { return inputs.subspan(sample * n, n); };
+  const std::span<const float> neutral = row(t.neutral_sample);
+  std::array<float, kMaxInputs> next{};
+  std::ranges::fill(direction, 0.0F);
+  for (std::size_t s = 0; s < t.sample_count(); ++s) {
+    if (!ShowsOnly(config, t, s)) continue;
+    for (std::size_t i = 0; i < n; ++i) direction[i] += row(s)[i] - neutral[i];
+  }
+  Normalise(direction);
+  for (int round = 0; round < kRounds; ++round) {
+    next.fill(0);
+    for (std::size_t s = 0; s < t.sample_count(); ++s) {
+      if (!ShowsOnly(config, t, s)) continue;
+      float way = 0;
+      for (std::size_t i = 0; i < n; ++i) way += direction[i] * (row(s)[i] - neutral[i]);
+      for (std::size_t i = 0; i < n; ++i) next[i] += way * (row(s)[i] - neutral[i]);
+    }
+    Normalise(std::span(next).first(n));
+    std::ranges::copy(std::span(next).first(n), direction.begin());
+  }
+}
+
+// Takes a direction out of every row.
+void TakeOut(std::span<const float> direction, std::span<float> rows) noexcept {
+  const std::size_t n = direction.size();
+  for (std::size_t at = 0; at < rows.size(); at += n) {
+    float way = 0;
+    for (std::size_t i = 0; i < n; ++i) way += direction[i] * rows[at + i];
+    for (std::size_t i = 0; i < n; ++i) rows[at + i] -= way * direction[i];
+  }
 }
 
 // y = basis * x
@@ -71,7 +131,7 @@ Result<> Region::Configure(const RegionConfig& config, const Training& t, Arena&
   config_ = config;
   ranges_.clear();
   for (const std::uint16_t output : config_.outputs)
-    if (!ranges_.try_push(RangeOf(t, output))) return Errc::kFull;
+    if (!ranges_.try_push(RangeOf(t, output, config_.dead_zone))) return Errc::kFull;
   const std::size_t samples = t.sample_count();
   const std::size_t inputs = config_.inputs();
   const std::size_t dimensions = config_.dimensions();
@@ -94,11 +154,18 @@ Result<> Region::Configure(const RegionConfig& config, const Training& t, Arena&
     for (std::size_t o = 0; o < outputs; ++o)
       targets[s * outputs + o] = t.targets[s * t.signals.size() + config_.outputs[o]];
   }
+  std::array<float, kMaxInputs> ignored{};
+  const std::span<float> direction = std::span(ignored).first(inputs);
+  if (!config_.ignores.empty()) {
+    FindIgnored(config_, t, all, direction);
+    TakeOut(direction, all);
+  }
   if (config_.axes > 0) {
     basis_ = arena.MakeArray<float>(dimensions * inputs);
     if (basis_.empty()) return Errc::kFull;
     if (auto found = rbf::PrincipalAxes(all, inputs, dimensions, basis_, rest); !found)
       return found;
+    TakeOut(direction, basis_);  // so that it is not seen in a face either
     for (std::size_t s = 0; s < samples; ++s)
       Project(basis_, all.subspan(s * inputs, inputs),
               projected.subspan(s * dimensions, dimensions));

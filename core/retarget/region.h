@@ -30,6 +30,7 @@ class Region {
                      std::span<float> leave_one_out) noexcept;
 
   const RegionConfig& config() const noexcept { return config_; }
+  const SoftRange& range(std::size_t output) const noexcept { return ranges_[output]; }
   float epsilon() const noexcept { return rbf_.epsilon(); }
 
   // `points_cm`: one per marker; `outputs`: one per output of the region, overwritten, each within

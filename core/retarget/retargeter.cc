@@ -68,6 +68,8 @@ Result<> Retargeter::Configure(const Rig& rig, const ExpressionMapping* expressi
   has_neutral_ = false;
   blend_ = blend_goal_ = 1;
   blended_at_.reset();
+  shared_steady_.Reset();
+  personal_steady_.Reset();
   signals_.fill(0);
   signal_count_ = names_.size() + kHeadSignals.size();
   links_.clear();
@@ -144,6 +146,8 @@ Result<> Retargeter::SetNeutral(const Neutral& neutral) noexcept {
   if (auto solved = SolveBones(next); !solved) return solved;
   if (auto solved = SolveAdaptation(shared_, neutral, next.shared); !solved) return solved;
   if (auto solved = SolveAdaptation(personal_, neutral, next.personal); !solved) return solved;
+  shared_steady_.Reset();
+  personal_steady_.Reset();
   current_ = 1 - current_;
   has_neutral_ = true;
   return {};
@@ -221,13 +225,18 @@ RigPose Retargeter::Update(const FacePose& face) noexcept {
 
 void Retargeter::ReadExpressions(const FacePose& face) noexcept {
   const Solution& solution = solutions_[current_];
-  if (shared_.mapping != nullptr)
+  if (shared_.mapping != nullptr) {
     Evaluate(shared_, solution.shared, face, signals_,
              std::span(novelty_).first(shared_.mapping->region_count()));
+    Settle(shared_, face.captured, shared_steady_, signals_);
+  }
   if (personal_.mapping == nullptr) return;
   AdvanceBlend(face.captured);
   std::array<float, kMaxSignals> personal{};
-  if (blend_ > 0) Evaluate(personal_, solution.personal, face, personal, {});
+  if (blend_ > 0) {
+    Evaluate(personal_, solution.personal, face, personal, {});
+    Settle(personal_, face.captured, personal_steady_, personal);
+  }
   for (std::size_t i = 0; i < mixes_.size(); ++i) {
     float& signal = signals_[mixes_[i].signal];
     signal = (mixes_[i].shared ? (1 - blend_) * signal : 0) + blend_ * personal[i];
@@ -256,6 +265,14 @@ void Retargeter::Evaluate(const Source& source, const Adaptation& adaptation, co
   }
   source.mapping->Evaluate(std::span(points).first(source.points.size()),
                            signals.first(source.mapping->signals().size()), novelty);
+}
+
+// Markers of a motion-capture system have no noise to speak of, and nothing is taken from them.
+void Retargeter::Settle(const Source& source, Time captured, Steady& steady,
+                        std::span<float> signals) noexcept {
+  if (!source.mapping->reads_landmarks()) return;
+  const auto ranges = source.mapping->ranges();
+  steady.Update(captured, ranges, signals.first(ranges.size()));
 }
 
 void Retargeter::AdvanceBlend(Time captured) noexcept {

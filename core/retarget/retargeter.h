@@ -16,6 +16,7 @@
 #include "core/retarget/expression_mapping.h"
 #include "core/retarget/geometry_mapping.h"
 #include "core/retarget/neutral.h"
+#include "core/retarget/steady.h"
 #include "core/rig/rig.h"
 #include "core/rig_pose.h"
 
@@ -128,6 +129,8 @@ class Retargeter {
   void ReadExpressions(const FacePose& face) noexcept;
   void Evaluate(const Source& source, const Adaptation& adaptation, const FacePose& face,
                 std::span<float> signals, std::span<float> novelty) const noexcept;
+  static void Settle(const Source& source, Time captured, Steady& steady,
+                     std::span<float> signals) noexcept;
   void AdvanceBlend(Time captured) noexcept;
   void ReadHead(const FacePose& face) noexcept;
   void MoveBones(const FacePose& face) noexcept;
@@ -149,6 +152,7 @@ class Retargeter {
   std::optional<Time> blended_at_;  // the last frame's time
   std::array<float, 2 * kMaxSignals + kHeadSignals.size()> signals_{};
   std::size_t signal_count_ = 0;
+  Steady shared_steady_, personal_steady_;
   std::array<float, kMaxRegions> novelty_{};
   std::array<Point3, kMaxBones> offsets_cm_{};  // of bones from their rest, this frame
 };

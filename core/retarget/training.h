@@ -33,6 +33,8 @@ struct RegionConfig {
   // > 0: distances are taken in that many principal axes of the inputs (see rbf::PrincipalAxes).
   std::uint16_t axes = 0;
   float gap_gain = 1;  // multiplies the gaps below: how much more they count
+  // Part of each output's range, from its neutral on, that fades out (SoftRange); 0..0.25.
+  float dead_zone = 0;
   // Indices of markers. The inputs are the coordinates of `points` minus the mean of `origin` (when
   // there are any), then how far the upper marker of each gap is above the lower one; all in cm. A
   // gap has a sign, unlike a distance: lips that press closer than in a neutral with parted lips
@@ -40,6 +42,10 @@ struct RegionConfig {
   InlineVector<std::uint16_t, kMaxMarkers> points, origin;
   InlineVector<Gap, kMaxRegionGaps> gaps;
   InlineVector<std::uint16_t, kMaxSignals> outputs;  // indices of signals
+  // Indices of signals of other regions that move these markers, too, or make the tracker think so:
+  // the main direction in which the inputs go where only these signals differ from the neutral
+  // sample is taken out of the inputs. Needs axes.
+  InlineVector<std::uint16_t, kMaxSignals> ignores;
 
   constexpr std::size_t inputs() const noexcept { return 3 * points.size() + gaps.size(); }
   // Inputs of the function itself.

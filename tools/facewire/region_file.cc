@@ -35,9 +35,9 @@ constexpr std::array<std::pair<std::string_view, retarget::Method>, 2> kMethods 
     {"rbf", retarget::Method::kRbf},
     {"nnls", retarget::Method::kNnls},
 }};
-constexpr std::array<std::string_view, 13> kKeys = {
-    "name",   "targets", "points", "origin",  "gaps",      "gap_gain",      "axes",
-    "method", "kernel",  "tail",   "epsilon", "smoothing", "tail_smoothing"};
+constexpr std::array<std::string_view, 15> kKeys = {
+    "name",   "targets", "points",  "origin",    "gaps",           "gap_gain",  "axes",   "method",
+    "kernel", "tail",    "epsilon", "smoothing", "tail_smoothing", "dead_zone", "ignores"};
 
 template <class Table>
 auto Parse(const Table& table, std::string_view name, const std::string& where) {
@@ -75,6 +75,10 @@ class RegionReader {
     region.nnls.ridge = Setting("smoothing", kAutomatic, region.nnls.ridge);
     region.rbf.tail_smoothing = Setting("tail_smoothing", kAutomatic, region.rbf.tail_smoothing);
     region.gap_gain = Number("gap_gain", 1);
+    region.dead_zone = Number("dead_zone", 0);
+    if (region.dead_zone > 0.25F)
+      Fail(*table_.get("dead_zone"), "dead_zone has to be a part of the range, 0 to 0.25");
+    Indices("ignores", training_.signals, "target", region.ignores);
     Indices("points", training_.markers, "marker", region.points);
     Indices("origin", training_.markers, "marker", region.origin);
     Indices("targets", training_.signals, "target", region.outputs);
@@ -82,6 +86,8 @@ class RegionReader {
     if (region.inputs() == 0) Fail(table_, "a region needs points or gaps");
     if (region.outputs.empty()) Fail(table_, "a region needs targets");
     region.axes = Axes(region);
+    if (!region.ignores.empty() && region.axes == 0)
+      Fail(*table_.get("ignores"), "ignores needs axes: what is ignored is left out of them");
     return region;
   }
 

@@ -34,6 +34,7 @@ SIDEWAYS_RAD, DOWN_RAD, UP_RAD = 0.6, 0.62, 0.45
 RIGHT_LIDS = [33, 7, 163, 144, 145, 153, 154, 155, 133, 173, 157, 158, 159, 160, 161, 246]
 LEFT_LIDS = [263, 249, 390, 373, 374, 380, 381, 382, 362, 398, 384, 385, 386, 387, 388, 466]
 CORNERS = [33, 133, 263, 362]
+OUTER_CORNERS = [33, 263]
 SOCKETS = [130, 24, 56, 27, 359, 254, 286, 257]
 IRISES = [468, 473]
 LID_GAPS = [(159, 145), (158, 153), (160, 144), (386, 374), (385, 380), (387, 373)]
@@ -66,10 +67,14 @@ REGIONS = [
     ("gaze", is_gaze, IRISES, CORNERS, [], 1, 0, 1, 0.5, 1),
     ("brows", starts("brow"), BROWS, NOSE_ROOT + [133, 362], [], 1, 24, 1, 1, 1),
     ("jaw", lambda n: n == "jawOpen", INNER_LIPS + OUTER_LIPS + CHIN, UPPER_LIP, LIP_GAPS, 16, 24, 1, 0.5, 40),
-    ("mouth", starts("mouth", "cheekPuff", "jawLeft", "jawRight", "jawForward"), MOUTH, NOSE_ROOT + CORNERS, [], 1, 32,
+    ("mouth", starts("mouth", "cheekPuff", "jawLeft", "jawRight", "jawForward"), MOUTH, NOSE_ROOT + OUTER_CORNERS, [], 1, 32,
      1.25, 2, 190),
     ("cheeks", starts("cheekSquint", "noseSneer"), MOUTH + EYES + BROWS, [], [], 1, 16, 2, 1.5, 200),
 ]
+
+
+# A lid that closes makes the tracker see the brows move. Its main direction is taken out, and what is left of it is small.
+EXTRA = {"brows": 'ignores = ["eyeBlinkLeft", "eyeBlinkRight"]\ndead_zone = 0.085\n'}
 
 
 def read(path):
@@ -157,6 +162,7 @@ def write_regions(path, x, markers, names):
             f.write(f"epsilon = {epsilon:.4f}\nsmoothing = {smoothing}\n")
             f.write(f"tail_smoothing = {tail_smoothing}\n")
             f.write(f"axes = {axes}\n")
+            f.write(EXTRA.get(name, ""))
             f.write("targets = " + json.dumps([n for n in names if wanted(n)]) + "\n")
             f.write("points = " + json.dumps([f"lm{p}" for p in points]) + "\n")
             if origin:
