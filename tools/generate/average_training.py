@@ -24,7 +24,9 @@ SIZE_PX = (640, 480)
 RECORDED = 275
 # A sample's smoothing is divided by its weight. The neutral's makes it exact: a face at rest gives zero. The recorded
 # rows show how shapes go together; with equal weights the more extreme constructed poses drown them.
-NEUTRAL_WEIGHT, RECORDED_WEIGHT = 1000, 8
+# Shuffled rows (only without recorded ones) show how they don't: they steady what the constructed poses say, no more.
+NEUTRAL_WEIGHT = 1000
+WEIGHTS = {"real": 8, "shuffled": 0.05}
 # The rendered eyeballs do not turn: the model's eyeLook shapes move lids only. So the irises are carried as an eyeball would
 # carry them. At weight 1, Live Link Face turns the eye by 0.58 to 0.63 rad sideways, 0.62 down and 0.45 up (regression of
 # alex_rom_3's eye angles on its weights).
@@ -188,7 +190,7 @@ def main():
     targets = np.array([[p["weights"].get(n, 0) for n in names] for p in poses])
     turn_eyes(x, markers, [i for i, p in enumerate(poses) if p["kind"] == "headneutral"], targets, names)
     chosen = choose(poses, targets, options.without_recorded)
-    weights = [NEUTRAL_WEIGHT if i == chosen[0] else RECORDED_WEIGHT if poses[i]["kind"] == "real" else 1 for i in chosen]
+    weights = [NEUTRAL_WEIGHT if i == chosen[0] else WEIGHTS.get(poses[i]["kind"], 1) for i in chosen]
 
     x = x[chosen].round(4)
     write_table(options.out / "markers.csv", [f"lm{m}_{axis}" for m in markers for axis in "xyz"], x.reshape(len(x), -1))

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "tests/core/retarget/training_example.h"
@@ -162,6 +163,46 @@ TEST(ExpressionMapping, NamesTheTargetThatLeastSquaresCannotTell) {
   EXPECT_EQ(m.Configure(example).error(), Errc::kSingular);
   EXPECT_EQ(m.report.nnls.duplicate_first, 0U) << "the eye is the same, the mouth is not";
   EXPECT_EQ(m.report.nnls.duplicate_second, 1U);
+}
+
+TEST(ExpressionMapping, ARegionIgnoresTheMotionOfSignalsThatAreNotItsOwn) {
+  // A tracker that moves the lips aside, and up a little, whenever the lids close.
+  const auto confused = [](float blink, float open) {
+    auto points = TrainingExample::Points(blink, open);
+    for (const std::size_t lip : {2, 3}) points[lip] = points[lip] + Point3{blink, 0.3F * blink, 0};
+    return points;
+  };
+  TrainingExample example;
+  example.samples.clear();
+  for (const float blink : {0.0F, 0.5F, 1.0F})
+    for (const float open : {0.0F, 0.5F, 1.0F})
+      for (const Point3 p : confused(blink, open))
+        example.samples.insert(example.samples.end(), {p.x, p.y, p.z});
+  RegionConfig& mouth = example.regions[1];
+  mouth.axes = 7;
+  mouth.rbf.tail = rbf::Tail::kNone;  // which could tell them apart by itself
+  const auto moved_by_blink = [&] {
+    ExampleMapping m;
+    EXPECT_TRUE(m.Configure(example));
+    return std::abs(m.At(confused(2, 0.5F))[1] - m.At(confused(0, 0.5F))[1]);
+  };
+  const float before = moved_by_blink();
+  TrainingExample::Fill(mouth.ignores, {0});
+  EXPECT_GT(before, 1e-3F);
+  EXPECT_LT(moved_by_blink(), 1e-4F) << before << " before";
+  ExampleMapping m;
+  ASSERT_TRUE(m.Configure(example));
+  EXPECT_NEAR(m.At(confused(1, 0.75F))[1], 0.75F, 0.05F);
+}
+
+TEST(ExpressionMapping, RefusesADeadZoneWithoutEndAndIgnoringWithoutAxes) {
+  ExampleMapping m;
+  TrainingExample example;
+  example.regions[0].dead_zone = 0.5F;
+  EXPECT_EQ(m.Configure(example).error(), Errc::kInvalidArgument);
+  example.regions[0].dead_zone = 0;
+  TrainingExample::Fill(example.regions[0].ignores, {1});
+  EXPECT_EQ(m.Configure(example).error(), Errc::kInvalidArgument);
 }
 
 TEST(ExpressionMapping, SaysWhichRegionsAFaceIsNewTo) {

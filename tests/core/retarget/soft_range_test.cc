@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace facewire::retarget {
@@ -38,6 +39,25 @@ TEST(SoftRange, NeverLeavesTheRangeNeverFallsAndHasNoKinkOnTheWayUp) {
       before = y;
     }
   }
+}
+
+TEST(SoftRange, ADeadZoneFadesOutWithoutAKinkAndLeavesTheMiddleAndTheEnds) {
+  constexpr SoftRange kDead{0, 1, 0, 0.1F};
+  EXPECT_EQ(kDead.Limit(0), 0);
+  EXPECT_LT(kDead.Limit(0.1F), 0.035F);
+  EXPECT_NEAR(kDead.Limit(0.5F), 0.5F, 1e-6F);
+  EXPECT_EQ(kDead.Limit(1), 1);
+  EXPECT_LT(kDead.Limit(1e-3F), 1e-4F) << "flat at rest";
+  const auto slope = [&](float x) { return (kDead.Limit(x + 1e-3F) - kDead.Limit(x)) / 1e-3F; };
+  EXPECT_NEAR(slope(0.198F), slope(0.201F), 0.05F);
+}
+
+TEST(SoftRange, ADeadZoneIsOnBothSidesOfARestInside) {
+  constexpr SoftRange kDead{-10, 30, 0, 0.1F};
+  EXPECT_LT(std::abs(kDead.Limit(-1)), 0.5F);
+  EXPECT_LT(kDead.Limit(3), 1.5F);
+  EXPECT_NEAR(kDead.Limit(-5), -5, 1e-5F);
+  EXPECT_NEAR(kDead.Limit(15), 15, 1e-5F);
 }
 
 TEST(SoftRange, ABlendShapeStaysAtRestBelowZero) { EXPECT_EQ(kShape.Limit(-0.3F), 0); }

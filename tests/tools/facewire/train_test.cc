@@ -303,6 +303,9 @@ TEST(Train, ABadRegionFileIsNamedWithItsLine) {
   EXPECT_THAT(with(eye + "smoothing = \"some\"\n"), HasSubstr("r.toml:5: smoothing"));
   EXPECT_THAT(with(eye + "axes = 4\n"), HasSubstr("r.toml:5: axes"));
   EXPECT_THAT(with(eye + "kernel = \"sinc\"\n"), HasSubstr("r.toml:5: \"sinc\""));
+  EXPECT_THAT(with(eye + "dead_zone = 0.3\n"), HasSubstr("r.toml:5: dead_zone"));
+  EXPECT_THAT(with(eye + "ignores = [\"nose\"]\n"), HasSubstr("there is no target \"nose\""));
+  EXPECT_THAT(with(eye + "ignores = [\"jaw_deg\"]\n"), HasSubstr("r.toml:5: ignores needs axes"));
   EXPECT_THAT(with("[[region]]\nname = \"x\"\ntargets = [\"blink\"]\n"), HasSubstr("needs points"));
 }
 
