@@ -1,10 +1,10 @@
-#include "core/rbf/rbf.h"
-
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 #include <random>
 #include <vector>
+
+#include "core/rbf/rbf.h"
 
 namespace facewire::rbf {
 namespace {
