@@ -38,6 +38,8 @@ class Trial {
         part_.targets.push_back(training.targets[row * training.signals.size() + output]);
     for (std::size_t o = 0; o < config.outputs.size(); ++o)
       config_.outputs[o] = static_cast<std::uint16_t>(o);
+    // Its targets are not in this part; what is ignored hardly changes which smoothing is best.
+    config_.ignores.clear();
     part_.regions = {config_};
     errors_.resize(part_.targets.size());
   }

@@ -159,6 +159,18 @@ TEST(Train, TheMethodIsTheRegionsOwn) {
   EXPECT_NEAR(c.At({{0, -1, 0}, {3, 3, 0}})[0], 10, 1e-2);
 }
 
+TEST(Train, ARegionThatIgnoresOthersFindsItsSettingsToo) {
+  Context c;
+  const auto regions = c.scratch.Write(
+      "r.toml",
+      "[[region]]\nname = \"mouth\"\npoints = [\"lip\"]\ntargets = [\"jaw_deg\"]\n"
+      "[[region]]\nname = \"eye\"\npoints = [\"lid\", \"lip\"]\ntargets = [\"blink\"]\n"
+      "axes = 2\nsmoothing = 0.01\nignores = [\"jaw_deg\"]\n");
+  c.Train({"--regions", regions.string()});
+  EXPECT_EQ(app::ReadTrainingSet(c.Out()).regions[1].ignores.size(), 1U);
+  EXPECT_NEAR(c.At({{0, -1, 0}, {3, 2, 0}})[1], c.At({{0, 0, 0}, {3, 2, 0}})[1], 1e-3);
+}
+
 TEST(Train, TakesTheMeanDistanceFromTheCommandLineAndFromARegion) {
   Context c;
   c.Train({"--epsilon", "mean"});
