@@ -26,7 +26,7 @@ RECORDED = 275
 # rows show how shapes go together; with equal weights the more extreme constructed poses drown them.
 # Shuffled rows (only without recorded ones) show how they don't: they steady what the constructed poses say, no more.
 NEUTRAL_WEIGHT = 1000
-WEIGHTS = {"real": 8, "shuffled": 0.05}
+WEIGHTS = {"real": 8, "shuffled": 0.01}
 # The rendered eyeballs do not turn: the model's eyeLook shapes move lids only. So the irises are carried as an eyeball would
 # carry them. At weight 1, Live Link Face turns the eye by 0.58 to 0.63 rad sideways, 0.62 down and 0.45 up (regression of
 # alex_rom_3's eye angles on its weights).
