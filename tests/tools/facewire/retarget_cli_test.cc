@@ -23,6 +23,16 @@ constexpr char kMarkers[] =
     "0,-8,4,2.5,-4,4,-2.5,-4,4\n0,-9,4,2.5,-4.1,4,-2.5,-4.1,4\n0,-10,4,2.5,-4.2,4,-2.5,-4.2,4\n";
 constexpr char kTargets[] = "jawOpen\n0\n0.5\n1\n";
 
+// A profile of the markers in that file.
+std::string Trained(const Scratch& scratch, const std::string& markers) {
+  const std::string profile = scratch.Path("p.profile");
+  EXPECT_EQ(RunFacewire({"train", "--markers", markers, "--targets",
+                         scratch.Write("t.csv", kTargets), "--out", profile})
+                .code,
+            0);
+  return profile;
+}
+
 TEST(FacewireRetarget, DrivesAParameterFromMarkersWithATrainedProfile) {
   const Scratch scratch;
   const std::string markers = scratch.Write("m.csv", kMarkers);
@@ -44,11 +54,7 @@ TEST(FacewireRetarget, DrivesAParameterFromMarkersWithATrainedProfile) {
 TEST(FacewireRetarget, SaysAtTheEndWhichPoseTheTrainingLacks) {
   const Scratch scratch;
   const std::string markers = scratch.Write("m.csv", kMarkers);
-  const std::string profile = scratch.Path("p.profile");
-  ASSERT_EQ(RunFacewire({"train", "--markers", markers, "--targets",
-                         scratch.Write("t.csv", kTargets), "--out", profile})
-                .code,
-            0);
+  const std::string profile = Trained(scratch, markers);
   // After a trained pose, a smile that nobody trained.
   const std::string take = std::string(kMarkers) + "0,-8,4,4.5,-2,4,-4.5,-2,4\n";
   const auto retarget = [&](const std::string& input) {
@@ -67,11 +73,7 @@ TEST(FacewireRetarget, SaysAtTheEndWhichPoseTheTrainingLacks) {
 TEST(FacewireRetarget, NamesTheMarkersThatAProfileMisses) {
   const Scratch scratch;
   const std::string markers = scratch.Write("m.csv", kMarkers);
-  const std::string profile = scratch.Path("p.profile");
-  ASSERT_EQ(RunFacewire({"train", "--markers", markers, "--targets",
-                         scratch.Write("t.csv", kTargets), "--out", profile})
-                .code,
-            0);
+  const std::string profile = Trained(scratch, markers);
   const std::string other = scratch.Write("other.csv", "chin_x,chin_y,chin_z\n0,-8,4\n");
   const Outcome outcome = RunFacewire({"retarget", other, "--rig", scratch.Write("rig.toml", kRig),
                                        "--profile", profile, "--out", scratch.Path("out.jsonl")});
