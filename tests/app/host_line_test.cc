@@ -143,7 +143,7 @@ TEST(HostLine, AHostThatReadsNowAndThenSeesWholeFramesOnly) {
   const hal::test::TemporaryFolder folder;
   hal::SystemClock clock;
   hal::pty::PtyHost port(folder.File("line"));
-  HostLine line(&port, clock, kBudget);
+  HostLine line(&port, clock, milliseconds(0));
   const Rig rig = SmallRig();
   line.SetRig(rig, wire::RigId(rig));
   ASSERT_TRUE(line.Open());
