@@ -33,6 +33,36 @@ std::array<std::size_t, 4> Dimensions(const Shape& shape) noexcept {
           static_cast<std::size_t>(shape[2]), static_cast<std::size_t>(shape[3])};
 }
 
+// One operator a call, or one call for all unary and one for all binary operators: XNNPACK has no
+// version to ask, but the header that brought the latter marks the former as deprecated, by this
+// macro.
+#ifdef XNN_DEPRECATED
+xnn_status DefineAdd(xnn_subgraph_t graph, std::uint32_t a, std::uint32_t b,
+                     std::uint32_t out) noexcept {
+  return xnn_define_binary(graph, xnn_binary_add, nullptr, a, b, out, 0);
+}
+xnn_status DefineRelu(xnn_subgraph_t graph, std::uint32_t in, std::uint32_t out) noexcept {
+  const xnn_unary_params params = {.clamp = {.min = 0.0F, .max = kInfinity}};
+  return xnn_define_unary(graph, xnn_unary_clamp, &params, in, out, 0);
+}
+xnn_status DefinePrelu(xnn_subgraph_t graph, std::uint32_t in, std::uint32_t slopes,
+                       std::uint32_t out) noexcept {
+  return xnn_define_binary(graph, xnn_binary_prelu, nullptr, in, slopes, out, 0);
+}
+#else
+xnn_status DefineAdd(xnn_subgraph_t graph, std::uint32_t a, std::uint32_t b,
+                     std::uint32_t out) noexcept {
+  return xnn_define_add2(graph, -kInfinity, kInfinity, a, b, out, 0);
+}
+xnn_status DefineRelu(xnn_subgraph_t graph, std::uint32_t in, std::uint32_t out) noexcept {
+  return xnn_define_clamp(graph, 0.0F, kInfinity, in, out, 0);
+}
+xnn_status DefinePrelu(xnn_subgraph_t graph, std::uint32_t in, std::uint32_t slopes,
+                       std::uint32_t out) noexcept {
+  return xnn_define_prelu(graph, in, slopes, out, 0);
+}
+#endif
+
 // Translates part of a model into an XNNPACK subgraph. All its memory is temporary.
 class GraphBuilder {
  public:
@@ -196,11 +226,11 @@ class GraphBuilder {
     const auto stride_w = static_cast<std::uint32_t>(op.stride_w);
     switch (op.operation) {
       case Operation::kAdd:
-        return xnn_define_add2(graph_, -kInfinity, kInfinity, in, values_[op.inputs[1]], out, 0);
+        return DefineAdd(graph_, in, values_[op.inputs[1]], out);
       case Operation::kRelu:
-        return xnn_define_clamp(graph_, 0.0F, kInfinity, in, out, 0);
+        return DefineRelu(graph_, in, out);
       case Operation::kPrelu:
-        return xnn_define_prelu(graph_, in, values_[op.inputs[1]], out, 0);
+        return DefinePrelu(graph_, in, values_[op.inputs[1]], out);
       case Operation::kMaxPool2d:
         return xnn_define_max_pooling_2d(graph_, 0, 0, 0, 0,
                                          static_cast<std::uint32_t>(op.filter_h),
