@@ -4,6 +4,12 @@ option(FACEWIRE_BUILD_TESTS "Build tests and benchmarks" ON)
 set(FACEWIRE_SANITIZE "" CACHE STRING "Sanitizers for everything, such as address,undefined or thread")
 set(FACEWIRE_ASSETS "${PROJECT_SOURCE_DIR}/.assets" CACHE PATH
     "Where tools/setup unpacked the networks and the test footage")
+# A program for another processor runs on an emulated one.
+if(CMAKE_CROSSCOMPILING)
+  set(FACEWIRE_TEST_TIMEOUT_S 7200)
+else()
+  set(FACEWIRE_TEST_TIMEOUT_S 600)
+endif()
 
 include(GNUInstallDirs)
 
@@ -72,7 +78,7 @@ function(facewire_test name)
                              FACEWIRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
   add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
-  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600)
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${FACEWIRE_TEST_TIMEOUT_S})
 endfunction()
 
 # facewire_benchmark(NAME SOURCES ... [DEPENDS ...]): one Google Benchmark executable, run by hand.
