@@ -11,6 +11,8 @@ else()
   set(FACEWIRE_TEST_TIMEOUT_S 600)
 endif()
 
+include(GNUInstallDirs)
+
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -25,6 +27,13 @@ if(FACEWIRE_SANITIZE)
   add_link_options(-fsanitize=${FACEWIRE_SANITIZE})
   # GCC 12 finds std::regex and std::function uninitialised in instrumented code; they are not.
   add_compile_options(-Wno-maybe-uninitialized)
+else()
+  # What Debian builds its own programs with, in every preset: what is tested is what is installed. The sanitizers
+  # see more than these do, and get in each other's way.
+  include(CheckPIESupported)
+  check_pie_supported()
+  add_compile_options(-fstack-protector-strong -D_FORTIFY_SOURCE=2)
+  add_link_options(-Wl,-z,relro,-z,now)
 endif()
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
   # GCC 12 at -O3 sees overlapping copies inside std::string (its bug 105651).
@@ -80,4 +89,15 @@ function(facewire_benchmark name)
   target_compile_definitions(${name} PRIVATE FACEWIRE_ASSETS="${FACEWIRE_ASSETS}"
                              FACEWIRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} benchmark::benchmark_main)
+endfunction()
+
+# facewire_install_compressed(FILE NAME FOLDER): as FOLDER/NAME.gz, the way manual pages and changelogs are kept;
+# the same bytes every time. Target documents makes all of them.
+add_custom_target(documents ALL)
+function(facewire_install_compressed file name folder)
+  set(compressed "${CMAKE_CURRENT_BINARY_DIR}/${name}.gz")
+  add_custom_command(OUTPUT "${compressed}" COMMAND gzip -9nc "${file}" > "${compressed}" DEPENDS "${file}" VERBATIM)
+  add_custom_target(compress_${name} DEPENDS "${compressed}")
+  add_dependencies(documents compress_${name})
+  install(FILES "${compressed}" DESTINATION "${folder}")
 endfunction()
