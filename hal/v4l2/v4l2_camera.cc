@@ -52,6 +52,8 @@ int V4l2Camera::Ioctl(unsigned long request, void* argument) noexcept {
 
 Result<> V4l2Camera::Start() {
   if (streaming_) return {};
+  reason_[0] = '\0';
+  stats_ = {};
   const bool sane = config_.width_px > 0 && config_.height_px > 0 && config_.fps > 0 &&
                     config_.fps <= 1000 && config_.buffer_count >= 2 &&
                     config_.buffer_count <= static_cast<int>(kMaxBuffers) &&
@@ -159,7 +161,8 @@ Result<> V4l2Camera::FetchNewest(v4l2_buffer& newest) {
 }
 
 Result<Frame> V4l2Camera::Acquire(std::chrono::milliseconds timeout) {
-  if (!streaming_) return Errc::kDisconnected;
+  if (!streaming_) return Errc::kDisconnected;  // and the reason stays what it was
+  reason_[0] = '\0';
   const posix::Deadline deadline(timeout);
   v4l2_buffer buffer{};
   for (;;) {

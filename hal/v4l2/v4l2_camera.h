@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "core/base/inline_vector.h"
 #include "hal/camera.h"
@@ -41,6 +42,7 @@ struct V4l2Mode {
   int buffer_count = 0;
 };
 
+// Since Start.
 struct V4l2Stats {
   std::uint64_t frames = 0;      // handed out
   std::uint64_t superseded = 0;  // good, but a newer one was there
@@ -66,8 +68,9 @@ class V4l2Camera final : public Camera {
   void Release(const Frame& frame) override;
   void Stop() override;
 
-  // The last failure as a person reads it: which step, why, and what would be right. Empty before.
-  const char* reason() const noexcept { return reason_.data(); }
+  // Which step failed, why, and what would be right.
+  std::string_view reason() const override { return reason_.data(); }
+  CameraCounts counts() const override { return {.damaged = stats_.damaged}; }
   const V4l2Mode& mode() const noexcept { return mode_; }  // of the last Start that succeeded
   std::string Describe() const;                            // mode() in one line, for logs
   const V4l2Stats& stats() const noexcept { return stats_; }

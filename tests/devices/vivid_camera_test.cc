@@ -338,7 +338,7 @@ TEST_F(VividCameraTest, AStreamThatWillNotStartMayBeTriedAgain) {
     SCOPED_TRACE(step);
     vivid.Set(step);
     EXPECT_FALSE(camera.Start());
-    EXPECT_STRNE(camera.reason(), "");
+    EXPECT_FALSE(camera.reason().empty());
     ASSERT_TRUE(camera.Start()) << camera.reason();
     ExpectFrames(camera);
     camera.Stop();

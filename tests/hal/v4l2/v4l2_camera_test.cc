@@ -386,7 +386,7 @@ TEST(V4l2Camera, TheRunningKernelRefusesWhatIsNoCamera) {
   EXPECT_EQ(missing.Start().error(), Errc::kNotFound);
   V4l2Camera null({.device = "/dev/null"}, clock);
   EXPECT_EQ(null.Start().error(), Errc::kUnsupported);
-  EXPECT_STREQ(null.reason(), "/dev/null: not a video device");
+  EXPECT_EQ(null.reason(), "/dev/null: not a video device");
 }
 
 }  // namespace
