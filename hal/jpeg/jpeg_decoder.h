@@ -15,7 +15,7 @@ namespace facewire::hal::jpeg {
 class JpegDecoder {
  public:
   // Pictures of up to kMaxSidePx a side. Throws std::bad_alloc.
-  static constexpr int kMaxSidePx = 8192;
+  static constexpr int kMaxSidePx = 16384;
   JpegDecoder(int width_px, int height_px);
   ~JpegDecoder();
   JpegDecoder(const JpegDecoder&) = delete;
