@@ -76,6 +76,24 @@ Errc OpenError(const std::string& path, int baud = 115200) {
   return opened ? Errc{} : opened.error();
 }
 
+// 74880 and 250000 baud (ESP boot loaders, DMX) have no constants of their own in termios.
+TEST(SerialportPortOnTtys, BytesPassAtUsualAndUnusualRates) {
+  if (const char* why = TtyLine::WhyUnavailable(); why != nullptr) GTEST_SKIP() << why;
+  const std::string pair = std::getenv(kPairVariable);
+  const std::size_t comma = pair.find(',');
+  for (const int baud : {9600, 74880, 115200, 250000, 1000000}) {
+    SerialportPort near({.path = pair.substr(0, comma), .baud = baud});
+    SerialportPort far({.path = pair.substr(comma + 1), .baud = baud});
+    ASSERT_TRUE(near.Open()) << baud;
+    ASSERT_TRUE(far.Open()) << baud;
+    const auto message = test::Bytes(64);
+    ASSERT_EQ(near.Write(message, test::kAmple), 64U) << baud;
+    EXPECT_EQ(test::ReadAll(far, 64), message) << baud;
+    ASSERT_EQ(far.Write(message, test::kAmple), 64U) << baud;
+    EXPECT_EQ(test::ReadAll(near, 64), message) << baud;
+  }
+}
+
 TEST(SerialportPort, ADeviceThatDoesNotExistIsNotFound) {
   const TemporaryFolder folder;
   std::filesystem::create_symlink("/dev/ttyUSB-of-yesterday", folder.File("link"));
