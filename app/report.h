@@ -28,6 +28,7 @@ struct RunReport {
   std::uint64_t frames = 0;
   double fps = 0;
   std::uint64_t frames_dropped = 0;
+  std::uint64_t frames_damaged = 0;  // of those, broken ones
   std::uint64_t faces = 0;
   std::uint64_t rejected = 0;
   std::uint64_t losses = 0;
