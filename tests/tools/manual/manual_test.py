@@ -77,6 +77,10 @@ class HelpText(unittest.TestCase):
         self.assertEqual(options["--rigid"].notes, ["not with --model"])
         self.assertEqual(options["--fast"].value, "")
 
+    def test_newer_ways_to_show_a_default_are_read(self):
+        newer = HELP.replace("}=attention", "} [attention] ").replace("]=15", "] [15] ")
+        self.assertEqual(options_of(newer)[1], options_of(HELP)[1])
+
     def test_a_description_over_several_lines_is_one(self):
         self.assertEqual(options_of(HELP)[1]["--out"].text, "The file to write; it is new, or written over")
 
@@ -114,7 +118,7 @@ class Pages(unittest.TestCase):
         page = unformatted((MADE / "facewire.toml.5").read_text())
         example = (SOURCES / "app/share/facewire.toml").read_text()
         for key in re.findall(r"^([\w.]+) *=", example, re.MULTILINE):
-            self.assertIn(f"\n{key} = ", page)
+            self.assertTrue(f"\n{key} = " in page, key)
 
     def test_every_key_that_rigs_may_have_is_in_their_page(self):
         page = (MADE / "facewire-rig.5").read_text()
