@@ -452,6 +452,8 @@ RunReport Application::Report() const {
   report.poses_dropped = line.poses_dropped;
   report.line_errors = line.write_errors;
   report.line_bytes = line.bytes;
+  report.line_losses = line.hang_ups;
+  report.line_reopens = line.opens > 0 ? line.opens - 1 : 0;
   report.resident_bytes = ResidentBytes();
   report.footage_bytes = Memory().parts.back().bytes;
   return report;

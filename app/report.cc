@@ -41,7 +41,8 @@ std::string Summary(const RunReport& r) {
        << " dropped, ";
   if (r.frames_damaged > 0) text << r.frames_damaged << " damaged, ";
   text << r.losses << " losses, " << r.blinks << " blinks, " << r.poses_sent << " poses sent, "
-       << r.poses_dropped << " not taken by the line";
+       << r.poses_dropped << " not taken by the line, which was lost " << r.line_losses
+       << " times and reopened " << r.line_reopens << " times";
   return text.str();
 }
 
@@ -57,6 +58,7 @@ void WriteJson(const std::filesystem::path& file, const RunReport& r) {
        << ",\n  \"camera_restarts\": " << r.camera_restarts
        << ",\n  \"poses_sent\": " << r.poses_sent << ",\n  \"poses_dropped\": " << r.poses_dropped
        << ",\n  \"line_errors\": " << r.line_errors << ",\n  \"line_bytes\": " << r.line_bytes
+       << ",\n  \"line_losses\": " << r.line_losses << ",\n  \"line_reopens\": " << r.line_reopens
        << ",\n  \"resident_bytes\": " << r.resident_bytes
        << ",\n  \"footage_bytes\": " << r.footage_bytes << "\n}\n";
   const std::string json = text.str();

@@ -11,7 +11,9 @@
 #include <ctime>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +26,9 @@
 #include "app/rig_file.h"
 #include "tools/facewire/camera_report.h"
 #include "tools/facewire/commands.h"
+#include "tools/facewire/doctor_gpio.h"
 #include "tools/facewire/face_reader.h"
+#include "tools/facewire/finding.h"
 #include "tools/facewire/json.h"
 
 namespace facewire::tools {
@@ -39,17 +43,9 @@ struct DoctorOptions {
   bool cameras = false;
 };
 
-enum class Verdict { kOk, kWarn, kFail };  // works; a part will not work; nothing will
 const char* Name(Verdict verdict) {
   return verdict == Verdict::kOk ? "OK" : verdict == Verdict::kWarn ? "WARN" : "FAIL";
 }
-
-struct Finding {
-  std::string what;
-  Verdict verdict = Verdict::kOk;
-  std::string found;
-  std::string fix;  // a command, or what to do; empty when all is well
-};
 
 // The first line of a message; its other lines are more of the same kind.
 std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
@@ -73,17 +69,19 @@ Finding CheckNetworks(const DoctorOptions& options) {
   });
 }
 
-void CheckConfig(const DoctorOptions& options, std::vector<Finding>& findings) {
+// The configuration, or none when there is none to be had.
+std::optional<app::Config> CheckConfig(const DoctorOptions& options,
+                                       std::vector<Finding>& findings) {
   if (!fs::exists(options.config)) {
     findings.push_back({"configuration", Verdict::kWarn, "there is no " + options.config,
                         "copy app/share/facewire.toml there, or name another with --config"});
-    return;
+    return std::nullopt;
   }
   app::Config config;
   findings.push_back(Try("configuration", options.config,
                          "facewired --check --config " + options.config,
                          [&] { config = app::LoadConfig(options.config); }));
-  if (findings.back().verdict != Verdict::kOk) return;
+  if (findings.back().verdict != Verdict::kOk) return std::nullopt;
   findings.push_back(Try("rig", config.character.rig.string(), "correct [character] rig",
                          [&] { (void)app::LoadRig(config.character.rig); }));
   const auto check_profile = [&](const fs::path& path, const std::string& key) {
@@ -93,6 +91,7 @@ void CheckConfig(const DoctorOptions& options, std::vector<Finding>& findings) {
   };
   check_profile(config.character.profile, "profile");
   check_profile(config.character.personal, "personal");
+  return config;
 }
 
 // Device nodes whose names begin with one of the prefixes, in order.
@@ -109,6 +108,18 @@ std::vector<std::string> Devices(std::initializer_list<std::string_view> prefixe
   return found;
 }
 
+// The links that udev keeps for a device, whatever number it gets: " = LINK" for each.
+std::string StableNames(const std::string& device) {
+  std::string names;
+  for (const char* folder : {"/dev/serial/by-id", "/dev/serial/by-path"}) {
+    std::error_code ignored;
+    for (const auto& link : fs::directory_iterator(folder, ignored)) {
+      if (fs::equivalent(link.path(), device, ignored)) names += " = " + link.path().string();
+    }
+  }
+  return names;
+}
+
 void CheckDevices(const std::string& what, std::initializer_list<std::string_view> prefixes,
                   const std::string& group, std::vector<Finding>& findings) {
   const std::vector<std::string> devices = Devices(prefixes);
@@ -121,7 +132,7 @@ void CheckDevices(const std::string& what, std::initializer_list<std::string_vie
     const int error = errno;
     if (fd >= 0) {
       close(fd);
-      findings.push_back({what, Verdict::kOk, device, ""});
+      findings.push_back({what, Verdict::kOk, device + StableNames(device), ""});
     } else if (error == EACCES) {
       findings.push_back({what, Verdict::kFail, device + ": no permission",
                           "sudo usermod -aG " + group + " $USER, then log in again"});
@@ -226,9 +237,11 @@ void Doctor(const DoctorOptions& options) {
   }
   std::vector<Finding> findings;
   findings.push_back(CheckNetworks(options));
-  CheckConfig(options, findings);
+  const std::optional<app::Config> config = CheckConfig(options, findings);
   CheckCameras(findings);
   CheckDevices("serial port", {"ttyACM", "ttyUSB", "ttyAMA", "ttyGS"}, "dialout", findings);
+  std::ranges::move(CheckGpio(config ? &config->gpio : nullptr, hal::gpiod::SystemLibrary()),
+                    std::back_inserter(findings));
   findings.push_back(CheckGroup("video"));
   findings.push_back(CheckGroup("dialout"));
   findings.push_back(CheckClock());
