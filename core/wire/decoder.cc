@@ -149,6 +149,14 @@ Command ReadCommand(Reader& r) noexcept {
   return m;
 }
 
+Text ReadText(Reader& r) noexcept {
+  Text m;
+  m.id = r.Integer<std::uint16_t>();
+  r.Require(m.text.try_resize(r.Integer<std::uint16_t>()));
+  for (char& c : m.text) c = static_cast<char>(r.Integer<std::uint8_t>());
+  return m;
+}
+
 Result<Message> ReadPayload(std::uint8_t type, std::span<const byte> payload) noexcept {
   Reader r(payload);
   Message message;
@@ -173,6 +181,9 @@ Result<Message> ReadPayload(std::uint8_t type, std::span<const byte> payload) no
       break;
     case MessageType::kCommand:
       message = ReadCommand(r);
+      break;
+    case MessageType::kText:
+      message = ReadText(r);
       break;
     default:
       return Errc::kUnsupported;
