@@ -6,6 +6,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/service.h"
@@ -105,8 +106,9 @@ class ServiceContext {
                      .keep_neutral =
                          [this](const retarget::Neutral&) {
                            ++kept;
-                           return keeps;
+                           return why_not_kept;
                          },
+                     .latch = &latch,
                      .log_answer =
                          [this](const wire::Acknowledgement& answer) { logged.push_back(answer); }},
         character);
@@ -170,7 +172,8 @@ class ServiceContext {
   std::optional<Service> service;
   bool alive = true;
   int kept = 0;
-  bool keeps = true;
+  std::string why_not_kept;
+  StopLatch latch{{}};               // remembers nothing, unless a test gives another
   retarget::ExampleMapping profile;  // not used before GivePersonalProfile
   std::vector<wire::Acknowledgement> logged;
 
