@@ -104,16 +104,27 @@ class Agent:
             raise RuntimeError(f"the guest agent refuses {name}: {answer['error']['desc']}")
         return answer["return"]
 
+    def start(self, command):
+        """A line of shell that goes on by itself; for `ended`."""
+        return self._call("guest-exec", path="/bin/sh", arg=["-c", f"exec 2>&1; {command}"],
+                          **{"capture-output": True})["pid"]
+
+    def ended(self, process):
+        """Its answer, once; None while it goes on."""
+        status = self._call("guest-exec-status", pid=process)
+        if not status["exited"]:
+            return None
+        out = base64.b64decode(status.get("out-data", "")).decode(errors="replace")
+        return Answer(status.get("exitcode", -status.get("signal", 0)), out)
+
     def run(self, command, timeout=60):
         """A line of shell; every failure but its own exit code raises."""
-        process = self._call("guest-exec", path="/bin/sh", arg=["-c", f"exec 2>&1; {command}"],
-                             **{"capture-output": True})
+        process = self.start(command)
         deadline = time.monotonic() + timeout
         while time.monotonic() < deadline:
-            status = self._call("guest-exec-status", pid=process["pid"])
-            if status["exited"]:
-                out = base64.b64decode(status.get("out-data", "")).decode(errors="replace")
-                return Answer(status.get("exitcode", -status.get("signal", 0)), out)
+            answer = self.ended(process)
+            if answer:
+                return answer
             time.sleep(0.1)
         raise TimeoutError(f"the board took longer than {timeout} s for: {command}")
 

@@ -1,5 +1,7 @@
 """The emulated board: QEMU with a webcam, a serial adapter and a watchdog that can be pulled while it runs."""
+import itertools
 import pathlib
+import shutil
 import signal
 import socket
 import subprocess
@@ -28,13 +30,29 @@ class Webcam:
     """A USB camera that this machine plays, showing the pictures of a folder over and over."""
 
     def __init__(self, pictures, folder):
+        """`pictures`: a folder of such folders; `folder` gets sockets and log."""
+        self._pictures = pictures
         self.socket = folder / "webcam.sock"
         self._control = folder / "webcam-control.sock"
         self._log = open(folder / "webcam.log", "w")
+        self._process = None
+        self.show("talking")
+
+    def show(self, name):
+        """A camera that looks at something else takes the place of the one that was plugged in."""
+        self._end()
         self._process = subprocess.Popen(
-            [sys.executable, WEBCAM, "play", pictures, self.socket, "--control", self._control],
+            [sys.executable, WEBCAM, "play", self._pictures / name, self.socket, "--control", self._control],
             stdout=self._log, stderr=self._log)
-        wait_until("the webcam's socket", self._control.exists, 20)
+        wait_until("the webcam's socket", self._answers, 20)
+
+    def _answers(self):
+        if self._process.poll() is not None:
+            raise RuntimeError(f"the webcam ended at once: {pathlib.Path(self._log.name).read_text().strip()}")
+        try:
+            return self.tell("status")
+        except OSError:
+            return False
 
     def tell(self, command):
         with socket.socket(socket.AF_UNIX) as hand:
@@ -45,9 +63,13 @@ class Webcam:
             raise RuntimeError(f"the webcam answers {command} with '{answer}'")
         return answer
 
+    def _end(self):
+        if self._process:
+            self._process.terminate()
+            self._process.wait(10)
+
     def close(self):
-        self._process.terminate()
-        self._process.wait(10)
+        self._end()
         self._log.close()
 
 
@@ -77,6 +99,7 @@ class Machine:
 
     def power_on(self):
         self._boots += 1
+        self.has_serial = True
         self._log = open(self.folder / f"qemu-{self._boots}.log", "w")
         self.booted_at = time.monotonic()
         self._qemu = subprocess.Popen(self._command(), stdin=subprocess.DEVNULL, stdout=self._log,
@@ -122,16 +145,28 @@ class Machine:
 
     def pull_serial(self):
         self.monitor.command("device_del", id="adapter")
+        self.has_serial = False
 
     def plug_serial(self):
         self.monitor.command("device_add", driver="usb-serial", id="adapter", chardev="line",
                              bus="usb.0", port="2")
+        self.has_serial = True
 
     def keep_journal(self):
         """What the board said, for a person to read afterwards."""
         if self.agent:
             (self.folder / f"journal-{self._boots}.log").write_text(
                 self.agent.run("journalctl --output=short-monotonic --no-pager", 120).out)
+
+    def power_cuts(self, disk, every_s):
+        """Copies of a disk as one power cut after the other would leave it; the board stands still for each."""
+        for cut in itertools.count():
+            self.monitor.command("stop")
+            copy = self.folder / f"cut-{cut}.qcow2"
+            shutil.copyfile(self.folder / f"{disk}.qcow2", copy)
+            yield copy
+            self.monitor.command("cont")
+            time.sleep(every_s)
 
     def power_off(self, timeout=120):
         """As a person does it: the board shuts down."""

@@ -19,6 +19,10 @@ MODULES = ["test_first_boot", "test_cables", "test_process", "test_disks", "test
 class Lines(unittest.TestResult):
     """One line for each test: result, name, what it measured, how long it took."""
 
+    def __init__(self):
+        super().__init__()
+        self._began = time.monotonic()
+
     def startTest(self, test):
         super().startTest(test)
         self._began = time.monotonic()
@@ -52,7 +56,6 @@ class Lines(unittest.TestResult):
 def chosen(wanted):
     suite = unittest.TestSuite()
     loader = unittest.TestLoader()
-    loader.sortTestMethodsUsing = None
     for module in MODULES:
         for case in loader.loadTestsFromModule(importlib.import_module(module)):
             for test in case:
