@@ -209,6 +209,10 @@ ServiceConfig Application::ServiceConfigOf(const Config& config) const {
 void Application::Open() {
   // First, so that a second service hears of the first one and not of a busy camera.
   const std::string no_control = OpenControl();
+  // Then these, because a process that was killed may have left the servos with power. A line that
+  // was asked for and cannot be had is a reason not to start: an emergency stop that does nothing
+  // is worse than none.
+  lines_ = OpenGpioLines(config_.gpio, options_.fake, clock_);
   if (camera_address_.empty()) {
     // Nothing to play: a grey picture, in which nobody is.
     blank_view_.width_px = config_.camera.width_px;
@@ -241,10 +245,13 @@ void Application::Open() {
           .follower = follower_,
           .capture = capture_,
           .control = &control_,
-          .stop = nullptr,
-          .calibrate = nullptr,
+          .stop = lines_.stop.get(),
+          .calibrate = lines_.calibrate.get(),
+          .status_led = lines_.status_led.get(),
+          .servo_power = lines_.servo_power.get(),
           .keep_neutral = [this](const retarget::Neutral& neutral) { return KeepNeutral(neutral); },
-          .log_answer = LogAnswer},
+          .log_answer = LogAnswer,
+          .log_panel = Log},
       *characters_[running_]);
   TakeStoredNeutral();
   if (!no_control.empty()) Log(no_control.c_str());
@@ -373,6 +380,7 @@ std::string Application::Summary() const {
                      std::to_string(profile_->mapping().signals().size()) + " signals") +
           "\n";
   text += "personal " + PersonalSummary() + "\n";
+  text += "gpio     " + GpioSummary(config_.gpio) + "\n";
   text += "host     " + (line_address_.empty() ? "none" : line_address_) + "\n";
   text += "control  " +
           (config_.control.socket.empty() ? "none" : config_.control.socket.string()) + "\n";

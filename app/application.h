@@ -15,6 +15,7 @@
 #include "app/config.h"
 #include "app/control.h"
 #include "app/follower.h"
+#include "app/gpio_lines.h"
 #include "app/host_line.h"
 #include "app/profile_file.h"
 #include "app/report.h"
@@ -104,6 +105,7 @@ class Application {
   std::unique_ptr<hal::SerialPort> port_;
   std::optional<HostLine> line_;
   Control control_;
+  GpioLines lines_;
   std::optional<Service> service_;
 
   Supervisor supervisor_;

@@ -24,7 +24,15 @@ std::uint32_t Microseconds(Duration d) noexcept {
 
 Service::Service(const ServiceConfig& config, const ServiceParts& parts,
                  Character& character) noexcept
-    : config_(config), parts_(parts), character_(&character), calibration_(parts.capture) {
+    : config_(config),
+      parts_(parts),
+      character_(&character),
+      calibration_(parts.capture),
+      panel_({.stop = parts.stop,
+              .calibrate = parts.calibrate,
+              .status_led = parts.status_led,
+              .servo_power = parts.servo_power},
+             parts.log_panel) {
   started_ = parts_.clock.Now();
   last_picture_ = started_;
   deadline_ = started_ + period();
@@ -153,12 +161,7 @@ bool Service::Hopeless() const noexcept {
 }
 
 void Service::ReadCommands(state::Inputs& in) noexcept {
-  if (parts_.stop != nullptr) {
-    // A line that cannot be read may be a cut one.
-    const Result<bool> asserted = parts_.stop->Get();
-    stop_line_ = !asserted || *asserted;
-  }
-  in.stop = stop_line_;
+  in.stop = panel_.ReadStop(now_);
   while (const auto command = parts_.line.NextCommand()) Obey({.command = *command}, in);
   if (parts_.control != nullptr) {
     parts_.control->Poll();
@@ -168,13 +171,7 @@ void Service::ReadCommands(state::Inputs& in) noexcept {
 }
 
 void Service::ReadButton(state::Inputs& in) noexcept {
-  if (parts_.calibrate == nullptr) return;
-  const Result<bool> down = parts_.calibrate->Get();
-  if (!down) {
-    button_.Forget();  // what nobody can read must not release an emergency stop
-    return;
-  }
-  const Button::Press press = button_.Update(*down, now_);
+  const Button::Press press = panel_.ReadButton(now_);
   if (press == Button::Press::kNone) return;
   const auto code = press == Button::Press::kShort ? wire::CommandCode::kCalibrateNeutral
                                                    : wire::CommandCode::kRelease;
@@ -207,7 +204,7 @@ void Service::Obey(const Request& request, state::Inputs& in) noexcept {
       in.release = false;
       break;
     case wire::CommandCode::kRelease:
-      if (stop_line_) {
+      if (panel_.stop_open()) {
         result = wire::CommandResult::kRefused;
       } else {
         in.release = true;
@@ -271,7 +268,13 @@ void Service::Send(const MotionOutput& out) noexcept {
   const bool status_due = StatusDue();
   const wire::Pose pose =
       wire::MakePose(character_->rig, character_->rig_id, out.pose, out.state, TimeOnLine());
-  parts_.line.Send(pose, status_due ? &status_ : nullptr);
+  const bool taken = parts_.line.Send(pose, status_due ? &status_ : nullptr);
+  panel_.Show({.now = now_,
+               .state = out.state,
+               .torque = out.torque,
+               .pose_taken = taken,
+               .calibrating = calibration_.requested(),
+               .ending = out.finished || Hopeless()});
   if (pictured_) {
     const Duration latency = TimeOnLine() - now_;
     stats_.latency.Add(latency);

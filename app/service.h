@@ -7,12 +7,12 @@
 #include <optional>
 
 #include "app/backoff.h"
-#include "app/button.h"
 #include "app/calibration.h"
 #include "app/character.h"
 #include "app/control.h"
 #include "app/follower.h"
 #include "app/host_line.h"
+#include "app/panel.h"
 #include "app/request.h"
 #include "app/service_stats.h"
 #include "core/frame_path/motion.h"
@@ -42,13 +42,18 @@ struct ServiceParts {
   Follower& follower;
   retarget::NeutralCapture& capture;  // configured
   Control* control = nullptr;         // opened; null: none
-  hal::GpioInput* stop = nullptr;     // the emergency stop's line; null: none
-  // A button: short calibrates, long releases an emergency stop or a rest. Null: none.
+  // The board's lines, as in PanelLines. The button: short calibrates, long releases an emergency
+  // stop or a rest.
+  hal::GpioInput* stop = nullptr;
   hal::GpioInput* calibrate = nullptr;
+  hal::GpioOutput* status_led = nullptr;
+  hal::GpioOutput* servo_power = nullptr;
   // Keeps a neutral that a command took, across boots. False: it could not be kept.
   std::function<bool(const retarget::Neutral&)> keep_neutral = {};
   // Hears what became of a press of the button, which has nobody else to tell.
   std::function<void(const wire::Acknowledgement&)> log_answer = {};
+  // As Panel's.
+  std::function<void(const char*)> log_panel = {};
 };
 
 // The running service: one thread, one tick after the other. A tick is a picture when there is one
@@ -122,8 +127,7 @@ class Service {
 
   bool quit_ = false;
   bool rest_ = false;
-  bool stop_line_ = false;
-  Button button_;
+  Panel panel_;
   std::optional<std::size_t> blink_left_, blink_right_;
 
   Time started_{};
