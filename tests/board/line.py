@@ -33,9 +33,10 @@ class Line:
 
     def __init__(self, path, record):
         self.poses = []
-        self.channels = {}  # rig_id -> {index: description}
+        self._channels = {}  # rig_id -> {index: description}
+        self._counts = {}  # rig_id -> channels
         self.record = record
-        self._news = threading.Condition()
+        self._news = threading.Condition(threading.RLock())
         self._socket = socket.socket(socket.AF_UNIX)
         self._socket.connect(str(path))
         self._thread = threading.Thread(target=self._read, daemon=True)
@@ -61,8 +62,10 @@ class Line:
     def _take(self, messages):
         with self._news:
             for message in messages:
-                if message["type"] == "channel":
-                    self.channels.setdefault(message["rig_id"], {})[message["index"]] = message
+                if message["type"] == "rig_header":
+                    self._counts[message["rig_id"]] = message["channels"]
+                elif message["type"] == "channel":
+                    self._channels.setdefault(message["rig_id"], {})[message["index"]] = message
                 elif message["type"] == "pose":
                     self.poses.append(Pose(
                         message["sequence"], message["frame_seq"],
@@ -97,24 +100,30 @@ class Line:
     def wait_for_state(self, *states, timeout, since=None):
         return self.wait_for(" or ".join(states), lambda pose: pose.state in states, timeout, since)
 
+    def rig(self, rig_id, timeout=180):
+        """{index: channel}, once the board has described them all; that rides along with the poses, a few at a time."""
+        deadline = time.monotonic() + timeout
+        with self._news:
+            while len(self._channels.get(rig_id, {})) != self._counts.get(rig_id):
+                if not self._news.wait(deadline - time.monotonic()):
+                    raise TimeoutError(f"waited {timeout} s for the rig's description")
+            return self._channels[rig_id]
+
     def value(self, pose, name):
         """Of a channel, in its unit."""
-        for channel in self.channels[pose.rig_id].values():
-            if channel["name"] == name:
-                span = channel["max"] - channel["min"]
-                return channel["min"] + pose.steps[channel["index"]] / 65535 * span
-        raise KeyError(f"the rig has no channel {name}")
+        channel = next(channel for channel in self.rig(pose.rig_id).values() if channel["name"] == name)
+        span = channel["max"] - channel["min"]
+        return channel["min"] + pose.steps[channel["index"]] / 65535 * span
 
     def off_neutral(self, pose):
         """How far the farthest channel is from its neutral, as a part of its range."""
         far = 0.0
-        for channel in self.channels[pose.rig_id].values():
+        for channel in self.rig(pose.rig_id).values():
             span = channel["max"] - channel["min"]
             if span > 0:
                 neutral = (channel["neutral"] - channel["min"]) / span
                 far = max(far, abs(pose.steps[channel["index"]] / 65535 - neutral))
         return far
-
 
     def close(self):
         try:
