@@ -13,7 +13,8 @@ from case import BoardTest
 from machine import Machine, Webcam
 
 # Each module's tests begin on a board that is on, and leave one that is on.
-MODULES = ["test_first_boot", "test_cables", "test_process", "test_disks", "test_panel", "test_second_boot"]
+MODULES = ["test_first_boot", "test_cables", "test_process", "test_disks", "test_panel", "test_backends",
+           "test_second_boot"]
 
 
 class Lines(unittest.TestResult):
