@@ -239,19 +239,26 @@ void Application::Open() {
   service_.emplace(
       ServiceConfigOf(config_),
       ServiceParts{
-    .camera = *camera_, .line = *line_, .clock = clock_, .follower = follower_, .capture = capture_,
-    .control = &control_, .stop = lines_.stop.get(), .calibrate = lines_.calibrate.get(),
-    .status_led = lines_.status_led.get(), .servo_power = lines_.servo_power.get(),
-    .keep_neutral = [this](const retarget::Neutral& neutral) { return KeepNeutral(neutral); },
-    .latch = &latch_, .log_answer = [this](const wire::Acknowledgement& answer) {
-      journal_.Write(Event::kButtonPress, AnswerText(answer).data(), Name(answer.code));
-    }}
-}
-, .log_panel = [this](const char* text) { journal_.Write(Event::kBoardLine, text); }
-},
+          .camera = *camera_,
+          .line = *line_,
+          .clock = clock_,
+          .follower = follower_,
+          .capture = capture_,
+          .control = &control_,
+          .stop = lines_.stop.get(),
+          .calibrate = lines_.calibrate.get(),
+          .status_led = lines_.status_led.get(),
+          .servo_power = lines_.servo_power.get(),
+          .keep_neutral = [this](const retarget::Neutral& neutral) { return KeepNeutral(neutral); },
+          .latch = &latch_,
+          .log_answer =
+              [this](const wire::Acknowledgement& answer) {
+                journal_.Write(Event::kButtonPress, AnswerText(answer).data(), Name(answer.code));
+              },
+          .log_panel = [this](const char* text) { journal_.Write(Event::kBoardLine, text); }},
       *characters_[running_]);
-TakeStoredNeutral();
-if (!no_control.empty()) journal_.Write(Event::kNoControl, no_control);
+  TakeStoredNeutral();
+  if (!no_control.empty()) journal_.Write(Event::kNoControl, no_control);
 }
 
 // A board whose disk is full, read-only or gone must still move a face.
