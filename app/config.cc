@@ -1,7 +1,11 @@
 #include "app/config.h"
 
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "app/toml_reader.h"
 #include "hal/gpiod/find_line.h"
@@ -42,6 +46,12 @@ void ReadCamera(TableReader camera, const std::filesystem::path& folder, CameraC
   camera.Integer("width_px", config.width_px, 64, 4096, "px");
   camera.Integer("height_px", config.height_px, 64, 4096, "px");
   camera.Integer("fps", config.fps, 1, 240, "Hz");
+  std::vector<std::pair<std::string_view, std::optional<hal::CameraFormat>>> formats = {
+      {"auto", std::nullopt}};
+  for (const hal::CameraFormat format : hal::kEveryCameraFormat) {
+    formats.emplace_back(hal::Name(format), format);
+  }
+  camera.Choice("format", config.format, formats);
   TableReader replay = camera.Table("replay");
   ReadPath(replay, "file", folder, config.replay.file);
   replay.Choice<Pace>("pace", config.replay.pace,
@@ -97,6 +107,7 @@ void ReadHost(TableReader host, const std::filesystem::path& folder, HostConfig&
   host.Integer("baud", config.baud, 1200, 4'000'000, "baud");
   host.Integer("write_budget_ms", config.write_budget_ms, 0, 20, "ms");
   host.Integer("min_rate_hz", config.min_rate_hz, 20, 240, "Hz");
+  host.Number("stuck_after_s", config.stuck_after_s, {0, 3600, "s"});
   host.Number("describe_every_s", config.describe_every_s, {0, 3600, "s"});
   host.Finish();
 }

@@ -18,11 +18,13 @@
 #include <string_view>
 #include <vector>
 
+#include "app/camera_list.h"
 #include "app/config.h"
 #include "app/error.h"
 #include "app/networks.h"
 #include "app/profile_file.h"
 #include "app/rig_file.h"
+#include "tools/facewire/camera_report.h"
 #include "tools/facewire/commands.h"
 #include "tools/facewire/doctor_gpio.h"
 #include "tools/facewire/face_reader.h"
@@ -38,6 +40,7 @@ struct DoctorOptions {
   std::string config = "/etc/facewire/facewire.toml";
   std::string networks;
   bool json = false;
+  bool cameras = false;
 };
 
 const char* Name(Verdict verdict) {
@@ -140,6 +143,20 @@ void CheckDevices(const std::string& what, std::initializer_list<std::string_vie
   }
 }
 
+void CheckCameras(std::vector<Finding>& findings) {
+  const std::vector<hal::CameraInfo> cameras = app::ListCameras();
+  if (cameras.empty()) {
+    findings.push_back({"camera", Verdict::kWarn, "none is plugged in",
+                        "plug one in; dmesg shows whether it is seen"});
+  }
+  for (const hal::CameraInfo& camera : cameras) {
+    const std::string problem = ProblemOf(camera);
+    const Verdict bad = camera.problem == Errc::kPermission ? Verdict::kFail : Verdict::kWarn;
+    findings.push_back({"camera", problem.empty() ? Verdict::kOk : bad,
+                        camera.address + (problem.empty() ? "" : ": " + problem), FixOf(camera)});
+  }
+}
+
 Finding CheckGroup(const std::string& name) {
   if (geteuid() == 0) return {"group " + name, Verdict::kOk, "root needs none", ""};
   const group* entry = getgrnam(name.c_str());
@@ -201,11 +218,27 @@ void PrintJson(const std::vector<Finding>& findings) {
   }
 }
 
+void ListCameras(const DoctorOptions& options) {
+  const std::vector<hal::CameraInfo> cameras = app::ListCameras();
+  std::fputs((options.json ? CameraJson(cameras) : CameraTable(cameras)).c_str(), stdout);
+  if (cameras.empty()) {
+    throw app::Failure("doctor: there is no camera; plug one in, dmesg shows whether it is seen");
+  }
+  const auto usable = [](const hal::CameraInfo& camera) { return ProblemOf(camera).empty(); };
+  if (std::ranges::none_of(cameras, usable)) {
+    throw app::Failure("doctor: none of these cameras can be used as it is");
+  }
+}
+
 void Doctor(const DoctorOptions& options) {
+  if (options.cameras) {
+    ListCameras(options);
+    return;
+  }
   std::vector<Finding> findings;
   findings.push_back(CheckNetworks(options));
   const std::optional<app::Config> config = CheckConfig(options, findings);
-  CheckDevices("camera", {"video"}, "video", findings);
+  CheckCameras(findings);
   CheckDevices("serial port", {"ttyACM", "ttyUSB", "ttyAMA", "ttyGS"}, "dialout", findings);
   std::ranges::move(CheckGpio(config ? &config->gpio : nullptr, hal::gpiod::SystemLibrary()),
                     std::back_inserter(findings));
@@ -230,6 +263,9 @@ void AddDoctor(CLI::App& facewire) {
   command->add_option(
       "--networks", options->networks,
       "Folder of the .tflite files; else FACEWIRE_NETWORKS, else the installed ones");
+  command->add_flag("--cameras", options->cameras,
+                    "Only list the cameras: the device line for facewire.toml, formats, sizes, "
+                    "rates, and who holds one; exit code 1 when none can be used");
   command->add_flag("--json", options->json, "A JSON object a line instead of a table");
   command->footer(
       "OK: works. WARN: a part will not work. FAIL: must be put right first, exit code 1.");
