@@ -13,7 +13,6 @@
 namespace facewire::tools {
 namespace {
 
-using hal::gpiod::ChipInfo;
 using hal::gpiod::GpiodConfig;
 using hal::gpiod::Library;
 
