@@ -362,7 +362,7 @@ void Service::Send(const MotionOutput& out) noexcept {
                .torque = out.torque,
                .pose_taken = taken,
                .calibrating = calibration_.requested(),
-               .ending = out.finished || Hopeless()});
+               .ending = out.finished || *Ailment() != '\0'});
   if (pictured_) {
     const Duration latency = TimeOnLine() - now_;
     stats_.latency.Add(latency);
