@@ -101,7 +101,9 @@ std::array<char, kMaxReportBytes> ToJson(const StatusReport& report) noexcept {
                        : stuck                     ? "stuck"
                                                    : "up");
   o.Count("poses_sent", line.poses).Count("poses_dropped", line.poses_dropped);
+  o.Count("line_bytes", line.bytes);
   o.Count("line_errors", line.write_errors).Count("line_losses", line.hang_ups);
+  o.Count("line_reopens", line.opens > 0 ? line.opens - 1 : 0);
   o.Text("neutral", Name(service.neutral_kind())).Text("state_folder", report.state_folder);
   o.Text("storage_problem", report.storage_problem).Text("stop_problem", report.stop_problem);
   o.Count("commands", stats.commands);
