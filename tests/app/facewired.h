@@ -103,6 +103,13 @@ class Facewired {
     options.insert(options.begin(), {FACEWIRED, "--config", (scratch / "facewire.toml").string()});
     return Process(options, scratch / "out", scratch / "err", environment);
   }
+  // kill -9. Its link stays behind, and the pseudo-terminal's number may be somebody else's soon: a
+  // host that looks again must not hear that one.
+  void Crash(Process& process) const {
+    process.Signal(SIGKILL);
+    EXPECT_EQ(process.Wait(), -1);
+    std::filesystem::remove(scratch / "line");
+  }
   Scratch scratch;
 };
 

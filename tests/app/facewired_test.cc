@@ -115,8 +115,7 @@ TEST(Facewired, TakesAndKeepsANeutralOnCommandAcrossARestartAndACrash) {
     waiting.join();
     EXPECT_EQ(code, 0) << calibrate.err();
     EXPECT_EQ(calibrate.out(), "the neutral was taken, and is kept\n");
-    process.Signal(SIGKILL);
-    EXPECT_EQ(process.Wait(), -1);
+    f.Crash(process);
   }
   EXPECT_TRUE(std::filesystem::exists(f.scratch / "control")) << "it had no time to clear up";
   const std::string kept = ReadAll(file);

@@ -62,8 +62,7 @@ TEST(Life, BeginsAtNeutralAfterACrash) {
       return host.state() == S::kTracking && host.rig.Complete() &&
              !AtNeutral(host.poses.back(), host.rig.rig());
     })) << process.err();
-    process.Signal(SIGKILL);
-    EXPECT_EQ(process.Wait(), -1);
+    f.Crash(process);
   }
   Process again = f.Start({"--fake"});
   Listener host(f.scratch / "line");
@@ -86,8 +85,7 @@ TEST(Life, StaysStoppedThroughACrashUntilItIsReleased) {
     EXPECT_EQ(stop.code, 0) << stop.err;
     EXPECT_EQ(stop.out, "stopped, over restarts too; `facewire release` ends it\n");
     EXPECT_EQ(host.state(), S::kStopped);
-    process.Signal(SIGKILL);
-    EXPECT_EQ(process.Wait(), -1);
+    f.Crash(process);
   }
   Process again = f.Start({"--fake"});
   Listener host(f.scratch / "line");
@@ -180,8 +178,7 @@ TEST(Life, NeedsNoDiskButSaysWhatItCannotKeep) {
     EXPECT_EQ(stop.code, 0) << stop.err;
     EXPECT_THAT(stop.out, HasSubstr("stopped, but a restart may forget it: "));
     EXPECT_TRUE(std::filesystem::exists(f.scratch / "run/stopped"));
-    process.Signal(SIGKILL);
-    EXPECT_EQ(process.Wait(), -1);
+    f.Crash(process);
   }
   Process again = f.Start({"--fake"});
   Listener host(f.scratch / "line");
