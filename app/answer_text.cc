@@ -30,7 +30,7 @@ const char* RefusedText(CommandCode code) noexcept {
     case CommandCode::kCalibrateNeutral:
       return "another calibration is running; wait for its end";
     case CommandCode::kRelease:
-      return "the emergency stop's switch is still on; release it first";
+      return "the emergency stop's line is open: unlock its switch, or mend its wire, then release";
     case CommandCode::kBlendProfile:
       return "there is no personal profile to blend in, or the part is not within 0 and 100 %";
     case CommandCode::kReport:

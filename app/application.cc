@@ -42,6 +42,7 @@ CameraOptions CameraOptionsOf(const CameraConfig& camera) {
   options.width_px = camera.width_px;
   options.height_px = camera.height_px;
   options.fps = camera.fps;
+  options.format = camera.format;
   options.pace =
       camera.replay.pace == ReplayConfig::Pace::kFast ? hal::Pace::kFast : hal::Pace::kRealTime;
   switch (camera.replay.loop) {
@@ -207,6 +208,10 @@ ServiceConfig Application::ServiceConfigOf(const Config& config) const {
 void Application::Open() {
   // First, so that a second service hears of the first one and not of a busy camera.
   const std::string no_control = OpenControl();
+  // Then these, because a process that was killed may have left the servos with power. A line that
+  // was asked for and cannot be had is a reason not to start: an emergency stop that does nothing
+  // is worse than none.
+  lines_ = OpenGpioLines(config_.gpio, options_.fake, clock_);
   PrepareStorage();
   if (camera_address_.empty()) {
     // Nothing to play: a grey picture, in which nobody is.
@@ -240,14 +245,17 @@ void Application::Open() {
           .follower = follower_,
           .capture = capture_,
           .control = &control_,
-          .stop = nullptr,
-          .calibrate = nullptr,
+          .stop = lines_.stop.get(),
+          .calibrate = lines_.calibrate.get(),
+          .status_led = lines_.status_led.get(),
+          .servo_power = lines_.servo_power.get(),
           .keep_neutral = [this](const retarget::Neutral& neutral) { return KeepNeutral(neutral); },
           .latch = &latch_,
           .log_answer =
               [this](const wire::Acknowledgement& answer) {
                 journal_.Write(Event::kButtonPress, AnswerText(answer).data(), Name(answer.code));
-              }},
+              },
+          .log_panel = [this](const char* text) { journal_.Write(Event::kBoardLine, text); }},
       *characters_[running_]);
   TakeStoredNeutral();
   if (!no_control.empty()) journal_.Write(Event::kNoControl, no_control);
@@ -408,6 +416,7 @@ std::string Application::Summary() const {
                      std::to_string(profile_->mapping().signals().size()) + " signals") +
           "\n";
   text += "personal " + PersonalSummary() + "\n";
+  text += "gpio     " + GpioSummary(config_.gpio) + "\n";
   text += "host     " + (line_address_.empty() ? "none" : line_address_) + "\n";
   text += "control  " +
           (config_.control.socket.empty() ? "none" : config_.control.socket.string()) + "\n";
@@ -461,6 +470,7 @@ RunReport Application::Report() const {
   report.frames = stats.frames;
   report.fps = report.seconds > 0 ? static_cast<double>(stats.frames) / report.seconds : 0;
   report.frames_dropped = stats.frames_dropped;
+  report.frames_damaged = stats.frames_damaged;
   report.faces = stats.faces;
   report.rejected = stats.rejected;
   report.losses = stats.losses;
@@ -472,6 +482,8 @@ RunReport Application::Report() const {
   report.poses_dropped = line.poses_dropped;
   report.line_errors = line.write_errors;
   report.line_bytes = line.bytes;
+  report.line_losses = line.hang_ups;
+  report.line_reopens = line.opens > 0 ? line.opens - 1 : 0;
   report.resident_bytes = ResidentBytes();
   report.footage_bytes = Memory().parts.back().bytes;
   return report;

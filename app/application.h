@@ -15,6 +15,7 @@
 #include "app/config.h"
 #include "app/control.h"
 #include "app/follower.h"
+#include "app/gpio_lines.h"
 #include "app/host_line.h"
 #include "app/journal.h"
 #include "app/observer.h"
@@ -108,6 +109,7 @@ class Application {
   std::unique_ptr<hal::SerialPort> port_;
   std::optional<HostLine> line_;
   Control control_;
+  GpioLines lines_;
   std::string storage_problem_;  // why the state folder takes nothing; "": it does
   StopLatch latch_;
   std::optional<Service> service_;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/base/time.h"
@@ -11,6 +12,8 @@
 #include "core/pose/pose_estimator.h"
 #include "core/state/state_machine.h"
 #include "core/track/tracker.h"
+#include "hal/camera_format.h"
+#include "hal/gpiod/library.h"
 
 // facewire.toml as plain structs. The defaults here are the defaults of the file;
 // app/share/facewire.toml lists every key with them. Paths are absolute after LoadConfig.
@@ -30,6 +33,8 @@ struct CameraConfig {
   int width_px = 640;
   int height_px = 480;
   int fps = 30;
+  // In what form it sends its pictures; nullopt: whichever reaches size and rate at the least cost.
+  std::optional<hal::CameraFormat> format;
   ReplayConfig replay;
 };
 
@@ -70,6 +75,20 @@ struct ControlConfig {
   std::filesystem::path socket = "/run/facewire/control";
 };
 
+struct GpioLineConfig {
+  std::string line;         // an offset on the chip, or the line's name; empty: none
+  bool active_low = false;  // a contact conducts, an LED is lit, servos have power at the low level
+  hal::gpiod::Bias bias = hal::gpiod::Bias::kAsIs;  // of an input
+};
+
+struct GpioConfig {
+  std::string chip;  // label, name or path; empty: every line has a name of its own
+  GpioLineConfig stop{.line = "", .active_low = true, .bias = hal::gpiod::Bias::kPullUp};
+  GpioLineConfig calibrate{.line = "", .active_low = true, .bias = hal::gpiod::Bias::kPullUp};
+  GpioLineConfig status_led;
+  GpioLineConfig servo_power;
+};
+
 struct Config {
   CameraConfig camera;
   TrackerFilesConfig tracker;
@@ -79,6 +98,7 @@ struct Config {
   NeutralConfig neutral;
   HostConfig host;
   ControlConfig control;
+  GpioConfig gpio;
   state::StateConfig states;
 };
 

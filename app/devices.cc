@@ -68,28 +68,6 @@ bool IsInput(Errc error) {
   throw Failure(line);
 }
 
-std::string DescribeReplayError(Errc error, const hal::replay::ReplayCamera& camera,
-                                const std::string& file) {
-  switch (error) {
-    case Errc::kNotFound:
-      return "there is no video " + file;
-    case Errc::kPermission:
-      return "no permission to read the video " + file;
-    case Errc::kUnsupported:
-      return file + " is not a video that can be played; give an mp4, mov, mkv, webm or avi file";
-    case Errc::kFull:
-      return file + ": one frame takes " + std::to_string(camera.info().frame_bytes) +
-             " bytes, more than the memory it may use; raise the memory, or 0 streams from the "
-             "file";
-    case Errc::kInvalidArgument:
-      return file + ": playing back and forth needs memory to decode ahead into";
-    case Errc::kEnd:
-      return file + " is over";
-    default:
-      return "playing " + file + ": " + Name(error);
-  }
-}
-
 }  // namespace
 
 std::unique_ptr<hal::SerialPort> MakeSerialPort(const std::string& path, int baud) {
@@ -153,6 +131,7 @@ std::unique_ptr<hal::Camera> MakeCamera(const std::string& address, const Camera
     config.width_px = options.width_px;
     config.height_px = options.height_px;
     config.fps = options.fps;
+    if (options.format) config.formats = {*options.format};
     return std::make_unique<hal::v4l2::V4l2Camera>(std::move(config), clock);
   }
   return std::make_unique<hal::replay::ReplayCamera>(
@@ -164,14 +143,16 @@ std::unique_ptr<hal::Camera> MakeCamera(const std::string& address, const Camera
 }
 
 std::string DescribeCameraError(Errc error, const hal::Camera& camera, const std::string& address) {
-  if (const auto* replay = dynamic_cast<const hal::replay::ReplayCamera*>(&camera)) {
-    return DescribeReplayError(error, *replay, Without(address, kReplay));
+  // What stands behind the camera knows more than the code says.
+  if (!camera.reason().empty()) {
+    const bool lost = error == Errc::kNotFound && address.starts_with(kV4l2);
+    return std::string(camera.reason()) +
+           (lost ? "; `facewire doctor --cameras` lists those there are" : "");
   }
-  // A live camera's driver knows more than its code says.
-  const auto* v4l2 = dynamic_cast<const hal::v4l2::V4l2Camera*>(&camera);
-  if (v4l2 != nullptr && error != Errc::kTimeout && *v4l2->reason() != '\0') return v4l2->reason();
-  if (error == Errc::kTimeout) return Without(address, kV4l2) + " is silent: it sends no pictures";
-  return Without(address, kV4l2) + ": " + Name(error);
+  const std::string name = Without(Without(address, kV4l2), kReplay);
+  if (error == Errc::kTimeout) return name + " is silent: it sends no pictures";
+  if (error == Errc::kEnd) return name + " is over";
+  return name + ": " + Name(error);
 }
 
 void StartCamera(hal::Camera& camera, const std::string& address) {

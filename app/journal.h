@@ -33,6 +33,7 @@ enum class Event : std::uint8_t {
   kBadInput,           // a mistake in the configuration; not started
   kFailure,            // something failed; not started, or ended
   kEnded,              // a summary of the run
+  kBoardLine,          // what a GPIO line did, or why it fails
 };
 
 struct EventKind {

@@ -65,10 +65,15 @@ void Observer::TellSystemd(const Service& service) noexcept {
   const wire::Status& status = service.status();
   const char* ailment = service.Ailment();
   const char* reason = *ailment != '\0' ? ailment : service.reason();
-  std::array<char, 200> text;
-  const int size = std::snprintf(text.data(), text.size(), "%s%s%s, %d.%d fps, latency %u ms%s",
+  std::array<char, 48> damage{};  // said where there is any: a bad cable, a crowded USB bus
+  if (const std::uint64_t pictures = service.stats().frames_damaged; pictures > 0) {
+    (void)std::snprintf(damage.data(), damage.size(), ", %llu damaged pictures",
+                        static_cast<unsigned long long>(pictures));
+  }
+  std::array<char, 240> text;
+  const int size = std::snprintf(text.data(), text.size(), "%s%s%s, %d.%d fps%s, latency %u ms%s",
                                  Name(service.state()), *reason == '\0' ? "" : ": ", reason,
-                                 status.centi_fps / 100, status.centi_fps / 10 % 10,
+                                 status.centi_fps / 100, status.centi_fps / 10 % 10, damage.data(),
                                  static_cast<unsigned>(status.latency_p50_us / 1000),
                                  service.neutral_kind() == Service::NeutralKind::kNotKept
                                      ? ", the neutral is kept only until the restart"

@@ -24,7 +24,15 @@ std::uint32_t Microseconds(Duration d) noexcept {
 
 Service::Service(const ServiceConfig& config, const ServiceParts& parts,
                  Character& character) noexcept
-    : config_(config), parts_(parts), character_(&character), calibration_(parts.capture) {
+    : config_(config),
+      parts_(parts),
+      character_(&character),
+      calibration_(parts.capture),
+      panel_({.stop = parts.stop,
+              .calibrate = parts.calibrate,
+              .status_led = parts.status_led,
+              .servo_power = parts.servo_power},
+             parts.log_panel) {
   started_ = parts_.clock.Now();
   last_picture_ = last_fresh_ = started_;
   deadline_ = started_ + period();
@@ -86,6 +94,7 @@ state::Sight Service::Look() noexcept {
   }
   const auto left = std::max(deadline_ - parts_.clock.Now(), Duration{});
   const Result<Frame> frame = parts_.camera.Acquire(std::chrono::ceil<milliseconds>(left));
+  CountDamaged();
   if (!frame) {
     MissPicture(frame.error());
     return state::Sight::kSilent;
@@ -121,6 +130,12 @@ state::Sight Service::See(const Frame& frame) noexcept {
   return SightOf(followed);
 }
 
+void Service::CountDamaged() noexcept {
+  const std::uint64_t now = parts_.camera.counts().damaged;
+  stats_.frames_damaged += now - damaged_;
+  damaged_ = now;
+}
+
 void Service::MissPicture(Errc why) noexcept {
   ++stats_.silent_ticks;
   const Time clock = parts_.clock.Now();
@@ -148,6 +163,7 @@ void Service::RestartCamera() noexcept {
   const Time clock = parts_.clock.Now();
   if (!restart_.Due(clock)) return;
   ++stats_.camera_restarts;
+  damaged_ = 0;
   running_ = camera_opens_ = parts_.camera.Start().has_value();
   last_seq_.reset();
   // Only a picture ends the back-off: a camera may start and stay silent again and again.
@@ -186,13 +202,10 @@ const char* Service::reason() const noexcept {
 }
 
 void Service::ReadCommands(state::Inputs& in) noexcept {
-  if (parts_.stop != nullptr) {
-    // A line that cannot be read may be a cut one.
-    const Result<bool> asserted = parts_.stop->Get();
-    stop_line_ = !asserted || *asserted;
+  in.stop = panel_.ReadStop(now_) || stop_remembered_;
+  if (in.stop) {
+    stopped_by_ = panel_.stop_open() ? "by the stop line" : "remembered from before the start";
   }
-  in.stop = stop_line_ || stop_remembered_;
-  if (in.stop) stopped_by_ = stop_line_ ? "by the stop line" : "remembered from before the start";
   stop_remembered_ = false;
   while (const auto command = parts_.line.NextCommand()) Obey({.command = *command}, in);
   if (parts_.control != nullptr) {
@@ -203,13 +216,7 @@ void Service::ReadCommands(state::Inputs& in) noexcept {
 }
 
 void Service::ReadButton(state::Inputs& in) noexcept {
-  if (parts_.calibrate == nullptr) return;
-  const Result<bool> down = parts_.calibrate->Get();
-  if (!down) {
-    button_.Forget();  // what nobody can read must not release an emergency stop
-    return;
-  }
-  const Button::Press press = button_.Update(*down, now_);
+  const Button::Press press = panel_.ReadButton(now_);
   if (press == Button::Press::kNone) return;
   const auto code = press == Button::Press::kShort ? wire::CommandCode::kCalibrateNeutral
                                                    : wire::CommandCode::kRelease;
@@ -271,7 +278,7 @@ void Service::Obey(const Request& request, state::Inputs& in) noexcept {
 
 // A stop that could come back by itself, after a crash or at the next boot, is not released.
 wire::CommandResult Service::Release(state::Inputs& in, std::string_view& why) noexcept {
-  if (stop_line_) return wire::CommandResult::kRefused;
+  if (panel_.stop_open()) return wire::CommandResult::kRefused;
   if (parts_.latch != nullptr && stop_kept_ && !parts_.latch->Release()) {
     why = parts_.latch->reason();
     return wire::CommandResult::kFailed;
@@ -349,7 +356,13 @@ void Service::Send(const MotionOutput& out) noexcept {
   const bool status_due = StatusDue();
   const wire::Pose pose =
       wire::MakePose(character_->rig, character_->rig_id, out.pose, out.state, TimeOnLine());
-  parts_.line.Send(pose, status_due ? &status_ : nullptr);
+  const bool taken = parts_.line.Send(pose, status_due ? &status_ : nullptr);
+  panel_.Show({.now = now_,
+               .state = out.state,
+               .torque = out.torque,
+               .pose_taken = taken,
+               .calibrating = calibration_.requested(),
+               .ending = out.finished || *Ailment() != '\0'});
   if (pictured_) {
     const Duration latency = TimeOnLine() - now_;
     stats_.latency.Add(latency);

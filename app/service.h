@@ -9,12 +9,12 @@
 #include <string_view>
 
 #include "app/backoff.h"
-#include "app/button.h"
 #include "app/calibration.h"
 #include "app/character.h"
 #include "app/control.h"
 #include "app/follower.h"
 #include "app/host_line.h"
+#include "app/panel.h"
 #include "app/request.h"
 #include "app/service_stats.h"
 #include "app/stop_latch.h"
@@ -47,15 +47,20 @@ struct ServiceParts {
   Follower& follower;
   retarget::NeutralCapture& capture;  // configured
   Control* control = nullptr;         // opened; null: none
-  hal::GpioInput* stop = nullptr;     // the emergency stop's line; null: none
-  // A button: short calibrates, long releases an emergency stop or a rest. Null: none.
+  // The board's lines, as in PanelLines. The button: short calibrates, long releases an emergency
+  // stop or a rest.
+  hal::GpioInput* stop = nullptr;
   hal::GpioInput* calibrate = nullptr;
+  hal::GpioOutput* status_led = nullptr;
+  hal::GpioOutput* servo_power = nullptr;
   // Keeps a neutral that a command took, across boots. Why it could not be kept; "" when it is.
   std::function<std::string(const retarget::Neutral&)> keep_neutral = {};
   // Remembers an emergency stop across crashes and boots; null: none does.
   StopLatch* latch = nullptr;
   // Hears what became of a press of the button, which has nobody else to tell.
   std::function<void(const wire::Acknowledgement&)> log_answer = {};
+  // As Panel's.
+  std::function<void(const char*)> log_panel = {};
 };
 
 // The running service: one thread, one tick after the other. A tick is a picture when there is one
@@ -111,6 +116,7 @@ class Service {
  private:
   state::Sight Look() noexcept;
   state::Sight See(const Frame& frame) noexcept;
+  void CountDamaged() noexcept;
   void MissPicture(Errc why) noexcept;
   void RestartCamera() noexcept;
   void ReadCommands(state::Inputs& in) noexcept;
@@ -133,9 +139,10 @@ class Service {
   std::optional<retarget::Neutral> neutral_;
   NeutralKind neutral_kind_ = NeutralKind::kNone;
 
-  bool running_ = true;       // the camera
-  bool camera_opens_ = true;  // at the last try
-  bool ended_ = false;        // the recording
+  bool running_ = true;        // the camera
+  bool camera_opens_ = true;   // at the last try
+  bool ended_ = false;         // the recording
+  std::uint64_t damaged_ = 0;  // pictures that the camera dropped since its start
   Backoff restart_;
   std::optional<std::uint64_t> last_seq_;
   Time last_picture_{};    // by the clock
@@ -149,13 +156,12 @@ class Service {
 
   bool quit_ = false;
   bool rest_ = false;
-  bool stop_line_ = false;
+  Panel panel_;
   bool stop_remembered_ = false;  // from before the start; counts for the first tick
   bool stop_kept_ = false;        // the latch was asked to remember the present stop
   std::optional<Request> stop_;   // is answered when the latch has it
   const char* stopped_by_ = "";
   InlineVector<Request, 8> errands_;
-  Button button_;
   std::optional<std::size_t> blink_left_, blink_right_;
 
   Time started_{};

@@ -2,11 +2,17 @@
 #define FACEWIRE_HAL_CAMERA_H_
 
 #include <chrono>
+#include <cstdint>
+#include <string_view>
 
 #include "core/base/result.h"
 #include "core/frame.h"
 
 namespace facewire::hal {
+
+struct CameraCounts {
+  std::uint64_t damaged = 0;  // pictures that came broken and were dropped
+};
 
 // A source of frames. Not thread-safe: one thread calls everything.
 // Life: Start, then pairs of Acquire and Release, then Stop; Start again after Stop or after
@@ -29,6 +35,11 @@ class Camera {
   virtual void Release(const Frame& frame) = 0;
 
   virtual void Stop() = 0;
+
+  // Why the last call failed, for a person; empty where the code says it all. Until the next call.
+  virtual std::string_view reason() const { return {}; }
+  // Since Start.
+  virtual CameraCounts counts() const { return {}; }
 };
 
 }  // namespace facewire::hal

@@ -13,6 +13,7 @@ Result<> FakeCamera::Start() {
   pacer_.emplace(clock_, config_.pace, config_.fps);
   next_ = 0;
   outstanding_ = 0;
+  counts_ = {};
   ended_ = false;
   return {};
 }

@@ -30,6 +30,7 @@ class FakeCamera final : public Camera {
   Result<Frame> Acquire(std::chrono::milliseconds timeout) override;
   void Release(const Frame& frame) override;
   void Stop() override { pacer_.reset(); }
+  CameraCounts counts() const override { return counts_; }
 
   // A camera that hangs: every Acquire times out until Resume. The frames of that while are missed.
   void FallSilent() noexcept { silent_ = true; }
@@ -46,6 +47,9 @@ class FakeCamera final : public Camera {
     start_fault_ = fault;
   }
 
+  // Pictures that came broken, and that nobody gets to see.
+  void Damage(std::uint64_t pictures) noexcept { counts_.damaged += pictures; }
+
   bool started() const noexcept { return pacer_.has_value(); }
   // Frames handed out and not yet given back: 0 or 1 with a caller that keeps the contract.
   int outstanding() const noexcept { return outstanding_; }
@@ -55,6 +59,7 @@ class FakeCamera final : public Camera {
   Clock& clock_;
   std::optional<Pacer> pacer_;  // while started
   std::uint64_t next_ = 0;
+  CameraCounts counts_;
   int outstanding_ = 0;
   bool silent_ = false;
   bool plugged_ = true;

@@ -109,14 +109,16 @@ ReplayCamera::~ReplayCamera() = default;
 
 Result<> ReplayCamera::Start() {
   if (pacer_) return {};
-  if (config_.loop == LoopMode::kPingPong && config_.memory_bytes == 0) {
-    return Errc::kInvalidArgument;
-  }
   info_ = {};
-  Result<> ready = StartDecoding();
-  if (ready && config_.memory_bytes > 0) ready = DecodeAhead();
+  reason_.clear();
+  const bool held = config_.memory_bytes > 0;
+  Result<> ready;
+  if (config_.loop == LoopMode::kPingPong && !held) ready = Errc::kInvalidArgument;
+  if (ready) ready = StartDecoding();
+  if (ready && held) ready = DecodeAhead();
   if (!ready) {
     Stop();
+    reason_ = Reason(ready.error());
     return ready;
   }
   next_ = 0;
@@ -124,6 +126,26 @@ Result<> ReplayCamera::Start() {
   pacer_.emplace(clock_, config_.pace,
                  info_.fps);  // decoding ahead takes none of the recording's time
   return {};
+}
+
+std::string ReplayCamera::Reason(Errc error) const {
+  switch (error) {
+    case Errc::kNotFound:
+      return "there is no video " + config_.path;
+    case Errc::kPermission:
+      return "no permission to read the video " + config_.path;
+    case Errc::kUnsupported:
+      return config_.path +
+             " is not a video that can be played; give an mp4, mov, mkv, webm or avi file";
+    case Errc::kFull:
+      return config_.path + ": one frame takes " + std::to_string(info_.frame_bytes) +
+             " bytes, more than the memory it may use; raise the memory, or 0 streams from the "
+             "file";
+    case Errc::kInvalidArgument:
+      return config_.path + ": playing back and forth needs memory to decode ahead into";
+    default:
+      return {};
+  }
 }
 
 Result<> ReplayCamera::StartDecoding() {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "hal/camera.h"
 #include "hal/clock.h"
@@ -52,6 +53,7 @@ class ReplayCamera final : public Camera {
   Result<Frame> Acquire(std::chrono::milliseconds timeout) override;
   void Release(const Frame& /*frame*/) override {}
   void Stop() override;
+  std::string_view reason() const override { return reason_; }
 
   const ReplayInfo& info() const noexcept { return info_; }
 
@@ -61,10 +63,12 @@ class ReplayCamera final : public Camera {
   Result<> StartDecoding();
   Result<> DecodeAhead();
   Result<Plane> DecodeUpTo(std::uint64_t n);
+  std::string Reason(Errc error) const;
 
   ReplayConfig config_;
   Clock& clock_;
   ReplayInfo info_;
+  std::string reason_;                     // of the last Start
   std::unique_ptr<Decoder> decoder_;       // while a streamed recording plays
   std::unique_ptr<std::uint8_t[]> block_;  // while a recording in memory plays
   std::optional<Pacer> pacer_;             // while started

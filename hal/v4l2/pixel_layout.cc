@@ -6,13 +6,14 @@ namespace facewire::hal::v4l2 {
 namespace {
 
 struct Pair {
-  PixelFormat format;
+  CameraFormat format;
   std::uint32_t fourcc;
 };
 constexpr Pair kPairs[] = {
-    {PixelFormat::kGrey8, V4L2_PIX_FMT_GREY},  {PixelFormat::kYuyv, V4L2_PIX_FMT_YUYV},
-    {PixelFormat::kNv12, V4L2_PIX_FMT_NV12},   {PixelFormat::kI420, V4L2_PIX_FMT_YUV420},
-    {PixelFormat::kRgb24, V4L2_PIX_FMT_RGB24}, {PixelFormat::kBgr24, V4L2_PIX_FMT_BGR24},
+    {CameraFormat::kYuyv, V4L2_PIX_FMT_YUYV},   {CameraFormat::kNv12, V4L2_PIX_FMT_NV12},
+    {CameraFormat::kI420, V4L2_PIX_FMT_YUV420}, {CameraFormat::kRgb24, V4L2_PIX_FMT_RGB24},
+    {CameraFormat::kBgr24, V4L2_PIX_FMT_BGR24}, {CameraFormat::kMjpeg, V4L2_PIX_FMT_MJPEG},
+    {CameraFormat::kGrey8, V4L2_PIX_FMT_GREY},
 };
 
 // A picture of a size that no camera has is a damaged answer, and its bytes must not overflow an
@@ -36,14 +37,14 @@ int BytesPerPixel(PixelFormat format) noexcept {
 
 }  // namespace
 
-std::uint32_t FourccOf(PixelFormat format) noexcept {
+std::uint32_t FourccOf(CameraFormat format) noexcept {
   for (const Pair& pair : kPairs) {
     if (pair.format == format) return pair.fourcc;
   }
   return 0;
 }
 
-std::optional<PixelFormat> FormatOf(std::uint32_t fourcc) noexcept {
+std::optional<CameraFormat> FormatOf(std::uint32_t fourcc) noexcept {
   for (const Pair& pair : kPairs) {
     if (pair.fourcc == fourcc) return pair.format;
   }

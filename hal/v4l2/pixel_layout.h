@@ -8,13 +8,14 @@
 
 #include "core/base/result.h"
 #include "core/frame.h"
+#include "hal/camera_format.h"
 
 namespace facewire::hal::v4l2 {
 
 // V4L2's code of a format (V4L2_PIX_FMT_...), and back; nullopt for formats that facewire does not
 // read.
-std::uint32_t FourccOf(PixelFormat format) noexcept;
-std::optional<PixelFormat> FormatOf(std::uint32_t fourcc) noexcept;
+std::uint32_t FourccOf(CameraFormat format) noexcept;
+std::optional<CameraFormat> FormatOf(std::uint32_t fourcc) noexcept;
 
 // "YUYV": a format's code in the letters that v4l2-ctl shows, unprintable ones as '?'.
 std::array<char, 5> FourccText(std::uint32_t fourcc) noexcept;

@@ -6,6 +6,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <cerrno>
+
 namespace facewire::hal::v4l2 {
 namespace {
 
@@ -30,6 +32,14 @@ class Linux final : public SystemCalls {
 };
 
 }  // namespace
+
+int Call(SystemCalls& calls, int fd, unsigned long request, void* argument) {
+  int result = 0;
+  do {
+    result = calls.Ioctl(fd, request, argument);
+  } while (result != 0 && errno == EINTR);
+  return result;
+}
 
 SystemCalls& LinuxCalls() noexcept {
   static Linux calls;

@@ -19,6 +19,9 @@ class SystemCalls {
   virtual int PollReadable(int fd, int timeout_ms, short* revents) = 0;
 };
 
+// calls.Ioctl until no signal interrupts it.
+int Call(SystemCalls& calls, int fd, unsigned long request, void* argument);
+
 // The running kernel's.
 SystemCalls& LinuxCalls() noexcept;
 

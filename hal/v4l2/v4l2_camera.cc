@@ -3,6 +3,7 @@
 #include <linux/videodev2.h>
 #include <poll.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdarg>
 #include <cstdio>
@@ -12,15 +13,14 @@
 #include "hal/posix/errors.h"
 
 namespace facewire::hal::v4l2 {
+namespace {
 
-PixelFormats EveryFormat() noexcept {
-  PixelFormats formats;
-  for (const PixelFormat format : {PixelFormat::kYuyv, PixelFormat::kNv12, PixelFormat::kI420,
-                                   PixelFormat::kRgb24, PixelFormat::kBgr24, PixelFormat::kGrey8}) {
-    static_cast<void>(formats.try_push(format));  // six fit
-  }
-  return formats;
-}
+// A camera that has been pulled out is closed only after this while. Its driver wakes us before it
+// has taken everything down, and Linux crashes when the last close comes in between (6.1 does:
+// media_device_unregister_entity reads the media device twice, without a lock the first time).
+constexpr std::chrono::milliseconds kTakeDown{250};
+
+}  // namespace
 
 V4l2Camera::V4l2Camera(V4l2Config config, Clock& clock, SystemCalls& calls)
     : config_(std::move(config)), clock_(clock), calls_(calls) {}
@@ -43,15 +43,13 @@ Errc V4l2Camera::Fail(Errc code, const char* format, ...) noexcept {
 }
 
 int V4l2Camera::Ioctl(unsigned long request, void* argument) noexcept {
-  int result = 0;
-  do {
-    result = calls_.Ioctl(fd_, request, argument);
-  } while (result != 0 && errno == EINTR);
-  return result;
+  return Call(calls_, fd_, request, argument);
 }
 
 Result<> V4l2Camera::Start() {
   if (streaming_) return {};
+  reason_[0] = '\0';
+  stats_ = {};
   const bool sane = config_.width_px > 0 && config_.height_px > 0 && config_.fps > 0 &&
                     config_.fps <= 1000 && config_.buffer_count >= 2 &&
                     config_.buffer_count <= static_cast<int>(kMaxBuffers) &&
@@ -62,7 +60,8 @@ Result<> V4l2Camera::Start() {
   }
   for (const auto step :
        {&V4l2Camera::OpenDevice, &V4l2Camera::CheckCapabilities, &V4l2Camera::NegotiateFormat,
-        &V4l2Camera::NegotiateRate, &V4l2Camera::MapBuffers, &V4l2Camera::StartStream}) {
+        &V4l2Camera::NegotiateRate, &V4l2Camera::KeepRateSteady, &V4l2Camera::MapBuffers,
+        &V4l2Camera::StartStream}) {
     if (Result<> done = (this->*step)(); !done) {
       Stop();
       return done;
@@ -83,6 +82,7 @@ void V4l2Camera::Stop() {
   held_ = -1;
   for (const Buffer& buffer : buffers_) calls_.Unmap(buffer.data, buffer.bytes);
   buffers_.clear();
+  decoder_.reset();
   if (fd_ >= 0) calls_.Close(fd_);
   fd_ = -1;
 }
@@ -138,8 +138,8 @@ Result<> V4l2Camera::FetchNewest(v4l2_buffer& newest) {
     }
     if (buffer.index >= buffers_.size()) return Fail(Errc::kIo, "gave a buffer that it never had");
     std::uint32_t back = buffer.index;
-    const bool damaged =
-        (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 || buffer.bytesused < mode_.layout.bytes;
+    const bool damaged = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 ||
+                         (!decoder_ && buffer.bytesused < mode_.layout.bytes);
     if (damaged) {
       ++stats_.damaged;
     } else {
@@ -159,25 +159,40 @@ Result<> V4l2Camera::FetchNewest(v4l2_buffer& newest) {
 }
 
 Result<Frame> V4l2Camera::Acquire(std::chrono::milliseconds timeout) {
-  if (!streaming_) return Errc::kDisconnected;
+  if (!streaming_) return Errc::kDisconnected;  // and the reason stays what it was
+  reason_[0] = '\0';
   const posix::Deadline deadline(timeout);
-  v4l2_buffer buffer{};
+  const std::uint64_t damaged_before = stats_.damaged;
   for (;;) {
+    v4l2_buffer buffer{};
     Result<> got = WaitForBuffer(deadline.remaining_ms());
     if (got) got = FetchNewest(buffer);
-    if (got) return FrameOf(buffer);
-    if (got.error() == Errc::kDisconnected) {
+    Result<Frame> frame = got ? FrameOf(buffer) : got.error();
+    if (frame) return frame;
+    if (frame.error() == Errc::kDisconnected) {
       Fail(Errc::kDisconnected, "the camera has gone");
+      clock_.SleepUntil(clock_.Now() + kTakeDown);
       Stop();
     }
     // Interrupted, or only damaged frames so far. A deadline that has passed ends it here too,
     // because a signal may come before every wait.
-    if (got.error() != Errc::kNotReady) return got.error();
-    if (deadline.passed()) return Errc::kTimeout;
+    if (frame.error() == Errc::kNotReady && !deadline.passed()) continue;
+    if (frame.error() != Errc::kNotReady && frame.error() != Errc::kTimeout) return frame;
+    if (stats_.damaged == damaged_before) return Errc::kTimeout;
+    return Fail(Errc::kTimeout, "sends only damaged pictures");
   }
 }
 
-Frame V4l2Camera::FrameOf(const v4l2_buffer& buffer) {
+// kNotReady: it holds no whole picture, and went back.
+Result<Frame> V4l2Camera::FrameOf(const v4l2_buffer& buffer) {
+  ImageView image = mode_.layout.At(buffers_[buffer.index].data);
+  if (decoder_) {
+    const Result<ImageView> unpacked = Unpack(buffer);
+    if (!unpacked) return unpacked.error();
+    image = *unpacked;
+  } else {
+    held_ = static_cast<int>(buffer.index);
+  }
   // The driver counts in 32 bits and from any number. One that repeats itself does not count, and
   // one that goes back has begun anew: both leave the frame as the next one.
   constexpr std::uint32_t kBackwards = 0x80000000U;
@@ -185,18 +200,29 @@ Frame V4l2Camera::FrameOf(const v4l2_buffer& buffer) {
   if (counting_) seq_ += step == 0 || step >= kBackwards ? 1 : step;
   driver_sequence_ = buffer.sequence;
   counting_ = true;
-  held_ = static_cast<int>(buffer.index);
   ++stats_.frames;
+  return Frame{.seq = seq_, .captured = StampOf(buffer), .image = image};
+}
 
-  Frame frame;
-  frame.seq = seq_;
+// The picture goes to the decoder's memory, and the buffer back to the driver at once.
+Result<ImageView> V4l2Camera::Unpack(const v4l2_buffer& buffer) {
+  const Buffer& packed = buffers_[buffer.index];
+  const std::size_t bytes = std::min<std::size_t>(buffer.bytesused, packed.bytes);
+  const Result<ImageView> image = decoder_->Decode({packed.data, bytes});
+  if (Result<> queued = Queue(buffer.index); !queued) {
+    return Fail(LostOr(queued.error()), "does not take its buffer back: error %d", errno);
+  }
+  if (image) return image;
+  ++stats_.damaged;
+  return Errc::kNotReady;
+}
+
+Time V4l2Camera::StampOf(const v4l2_buffer& buffer) const {
   const bool monotonic =
       (buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
   const Time stamp{std::chrono::seconds(buffer.timestamp.tv_sec) +
                    std::chrono::microseconds(buffer.timestamp.tv_usec)};
-  frame.captured = monotonic && stamp > Time{} ? stamp : clock_.Now();
-  frame.image = mode_.layout.At(buffers_[buffer.index].data);
-  return frame;
+  return monotonic && stamp > Time{} ? stamp : clock_.Now();
 }
 
 void V4l2Camera::Release(const Frame& /*frame*/) {
@@ -210,7 +236,7 @@ std::string V4l2Camera::Describe() const {
   std::array<char, 192> text;
   const ImageView& view = mode_.layout.view;
   std::snprintf(text.data(), text.size(), "%s (%s): %s %dx%d%s", mode_.card.data(),
-                mode_.driver.data(), FourccText(FourccOf(view.format)).data(), view.width_px,
+                mode_.driver.data(), FourccText(FourccOf(mode_.format)).data(), view.width_px,
                 view.height_px, mode_.fps > 0 ? "" : " at an unknown rate");
   std::string line = text.data();
   if (mode_.fps > 0) {

@@ -4,11 +4,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/base/inline_vector.h"
 #include "hal/camera.h"
+#include "hal/camera_format.h"
 #include "hal/clock.h"
+#include "hal/jpeg/jpeg_decoder.h"
+#include "hal/v4l2/frame_rate.h"
 #include "hal/v4l2/pixel_layout.h"
 #include "hal/v4l2/system_calls.h"
 
@@ -17,9 +24,6 @@ struct v4l2_format;
 
 namespace facewire::hal::v4l2 {
 
-using PixelFormats = InlineVector<PixelFormat, 6>;
-PixelFormats EveryFormat() noexcept;  // YUYV, NV12, I420, RGB24, BGR24, grey
-
 struct V4l2Config {
   std::string device = "/dev/video0";
   // What is asked for. A device that cannot do it gives what comes nearest: see V4l2Camera::mode().
@@ -27,7 +31,8 @@ struct V4l2Config {
   int height_px = 480;
   double fps = 30;
   double lowest_fps = 10;  // a camera that is slower than this is refused: the rig would stutter
-  PixelFormats formats = EveryFormat();  // best first; the first with the size asked for is taken
+  // What may be taken, best first. Size goes before rate, and rate before this order.
+  std::vector<CameraFormat> formats{std::begin(kEveryCameraFormat), std::end(kEveryCameraFormat)};
   // More ride out a longer stall of the program, and cost a picture's memory each.
   int buffer_count = 4;  // 2..32
 };
@@ -36,21 +41,24 @@ struct V4l2Config {
 struct V4l2Mode {
   std::array<char, 32> driver{};
   std::array<char, 32> card{};
-  PixelLayout layout;
-  double fps = 0;  // 0: the driver does not say
+  CameraFormat format{};
+  PixelLayout layout;  // of a frame's pixels
+  double fps = 0;      // 0: the driver does not say
   int buffer_count = 0;
 };
 
+// Since Start.
 struct V4l2Stats {
   std::uint64_t frames = 0;      // handed out
   std::uint64_t superseded = 0;  // good, but a newer one was there
-  std::uint64_t damaged = 0;     // marked so by the driver, or shorter than a picture
+  std::uint64_t damaged = 0;     // marked so by the driver, shorter than a picture, no whole JPEG
 };
 
 // A camera of the kernel's V4L2 interface (USB webcams, simple sensors): memory-mapped buffers,
-// single- plane capture, uncompressed formats. Frame::image lies in the driver's memory: nothing is
-// copied. Frame::seq starts at 0 and has the driver's gaps. Frame::captured is the driver's when it
-// stamps with the monotonic clock, otherwise the clock's time when the frame was fetched.
+// single-plane capture. Frame::image lies in the driver's memory, nothing is copied; of a
+// compressed format it lies in the decoder's. Frame::seq starts at 0 and has the driver's gaps.
+// Frame::captured is the driver's when it stamps with the monotonic clock, otherwise the clock's
+// time when the frame was fetched.
 class V4l2Camera final : public Camera {
  public:
   // `clock` and `calls` are borrowed for the camera's life.
@@ -66,8 +74,9 @@ class V4l2Camera final : public Camera {
   void Release(const Frame& frame) override;
   void Stop() override;
 
-  // The last failure as a person reads it: which step, why, and what would be right. Empty before.
-  const char* reason() const noexcept { return reason_.data(); }
+  // Which step failed, why, and what would be right.
+  std::string_view reason() const override { return reason_.data(); }
+  CameraCounts counts() const override { return {.damaged = stats_.damaged}; }
   const V4l2Mode& mode() const noexcept { return mode_; }  // of the last Start that succeeded
   std::string Describe() const;                            // mode() in one line, for logs
   const V4l2Stats& stats() const noexcept { return stats_; }
@@ -79,21 +88,27 @@ class V4l2Camera final : public Camera {
     std::size_t bytes = 0;
   };
 
+  struct Choice;
+
   Errc Fail(Errc code, const char* format, ...) noexcept __attribute__((format(printf, 3, 4)));
   int Ioctl(unsigned long request, void* argument) noexcept;
   Result<> OpenDevice();
   Result<> CheckCapabilities();
   Result<> NegotiateFormat();
-  Result<> TryFormat(PixelFormat wanted, v4l2_format& format);
+  Result<> TryFormat(CameraFormat wanted, v4l2_format& format);
+  Result<Choice> ChooseFormat();
   Result<> RefuseFormats();
   Result<> NegotiateRate();
+  Result<> KeepRateSteady();
   Result<> MapBuffers();
   Result<> StartStream();
   Result<> Queue(std::uint32_t index);
   Result<> WaitForBuffer(int timeout_ms);
   Result<> FetchNewest(v4l2_buffer& newest);
   Errc LostOr(Errc code) noexcept;
-  Frame FrameOf(const v4l2_buffer& buffer);
+  Result<Frame> FrameOf(const v4l2_buffer& buffer);
+  Result<ImageView> Unpack(const v4l2_buffer& buffer);
+  Time StampOf(const v4l2_buffer& buffer) const;
   bool IsGone() noexcept;
 
   V4l2Config config_;
@@ -102,10 +117,12 @@ class V4l2Camera final : public Camera {
   int fd_ = -1;
   bool streaming_ = false;
   InlineVector<Buffer, kMaxBuffers> buffers_;
-  int held_ = -1;                      // the buffer that the caller has, or -1
-  bool counting_ = false;              // a frame came since Start
-  std::uint32_t driver_sequence_ = 0;  // of that frame
-  std::uint64_t seq_ = 0;              // the same beyond 32 bits
+  std::unique_ptr<jpeg::JpegDecoder> decoder_;  // while a compressed format streams
+  Period period_;                               // wanted of the driver; unknown: it lists none
+  int held_ = -1;                               // the buffer that the caller has, or -1
+  bool counting_ = false;                       // a frame came since Start
+  std::uint32_t driver_sequence_ = 0;           // of that frame
+  std::uint64_t seq_ = 0;                       // the same beyond 32 bits
   V4l2Mode mode_;
   V4l2Stats stats_;
   std::array<char, 256> reason_{};

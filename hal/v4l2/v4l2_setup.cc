@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <utility>
 
 #include "hal/posix/errors.h"
 #include "hal/v4l2/v4l2_camera.h"
@@ -86,7 +88,7 @@ Result<> V4l2Camera::CheckCapabilities() {
   return {};
 }
 
-Result<> V4l2Camera::TryFormat(PixelFormat wanted, v4l2_format& format) {
+Result<> V4l2Camera::TryFormat(CameraFormat wanted, v4l2_format& format) {
   format = {};
   format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   format.fmt.pix.width = static_cast<std::uint32_t>(config_.width_px);
@@ -102,47 +104,74 @@ Result<> V4l2Camera::TryFormat(PixelFormat wanted, v4l2_format& format) {
   return format.fmt.pix.pixelformat == FourccOf(wanted) ? Result<>{} : Errc::kUnsupported;
 }
 
-Result<> V4l2Camera::NegotiateFormat() {
-  v4l2_format format{};
-  PixelFormat chosen{};
+// What a device makes of one of the formats.
+struct V4l2Camera::Choice {
+  CameraFormat format{};
+  v4l2_format device{};
+  Period period{};
+
+  int SizeError(const V4l2Config& wanted) const noexcept {
+    return std::abs(static_cast<int>(device.fmt.pix.width) - wanted.width_px) +
+           std::abs(static_cast<int>(device.fmt.pix.height) - wanted.height_px);
+  }
+  // How much of the wanted rate is missing, 0..1. A rate that nobody knows counts as enough.
+  double RateError(const V4l2Config& wanted) const noexcept {
+    constexpr double kNextTo = 0.05;  // 29.97 is 30, and 25 is not
+    const double fps = period.fps();
+    const double missing = fps > 0 ? 1 - fps / wanted.fps : 0;
+    return missing > kNextTo ? missing : 0;
+  }
+};
+
+Result<V4l2Camera::Choice> V4l2Camera::ChooseFormat() {
+  Choice best;
   bool any = false;
-  bool exact = false;
-  for (const PixelFormat wanted : config_.formats) {
-    v4l2_format candidate{};
-    if (Result<> tried = TryFormat(wanted, candidate); !tried) {
-      if (tried.error() != Errc::kUnsupported) return tried;
+  for (const CameraFormat format : config_.formats) {
+    Choice choice{.format = format};
+    if (Result<> tried = TryFormat(format, choice.device); !tried) {
+      if (tried.error() != Errc::kUnsupported) return tried.error();
       continue;
     }
-    exact = candidate.fmt.pix.width == static_cast<std::uint32_t>(config_.width_px) &&
-            candidate.fmt.pix.height == static_cast<std::uint32_t>(config_.height_px);
-    if (!any || exact) {
-      any = true;
-      chosen = wanted;
-      format = candidate;
-    }
-    if (exact) break;
+    const v4l2_pix_format& pix = choice.device.fmt.pix;
+    choice.period =
+        ReadFrameRates(calls_, fd_, pix.pixelformat, pix.width, pix.height).Nearest(config_.fps);
+    const auto errors = [this](const Choice& of) {
+      return std::pair(of.SizeError(config_), of.RateError(config_));
+    };
+    if (!any || errors(choice) < errors(best)) best = choice;
+    any = true;
+    if (errors(best) == std::pair(0, 0.0)) return best;  // and the device stands at it
   }
-  if (!any) return RefuseFormats();
-  // No format has the size: the device stands at the one tried last, so set the best one again.
-  if (!exact) {
-    if (Result<> again = TryFormat(chosen, format); !again) {
-      return Fail(again.error(), "refuses the format that it offered before");
-    }
+  if (!any) return RefuseFormats().error();
+  if (Result<> again = TryFormat(best.format, best.device); !again) {
+    return Fail(again.error(), "refuses the format that it offered before");
   }
+  return best;
+}
 
-  const v4l2_pix_format& pix = format.fmt.pix;
+Result<> V4l2Camera::NegotiateFormat() {
+  const Result<Choice> choice = ChooseFormat();
+  if (!choice) return choice.error();
+  const v4l2_pix_format& pix = choice->device.fmt.pix;
   if (!IsProgressive(pix.field)) {
     return Fail(Errc::kUnsupported, "delivers interlaced pictures; a progressive mode is needed");
   }
+  const bool compressed = choice->format == CameraFormat::kMjpeg;
   const Result<PixelLayout> layout =
-      LayOut(chosen, static_cast<int>(pix.width), static_cast<int>(pix.height), pix.bytesperline);
-  if (!layout || pix.sizeimage < layout->bytes) {
+      LayOut(PixelFormatOf(choice->format), static_cast<int>(pix.width),
+             static_cast<int>(pix.height), compressed ? 0 : pix.bytesperline);
+  if (!layout || (!compressed && pix.sizeimage < layout->bytes)) {
     return Fail(Errc::kUnsupported,
                 "%ux%u %s with rows of %u bytes and pictures of %u contradicts itself", pix.width,
                 pix.height, FourccText(pix.pixelformat).data(), pix.bytesperline, pix.sizeimage);
   }
+  if (compressed) {
+    decoder_ = std::make_unique<jpeg::JpegDecoder>(layout->view.width_px, layout->view.height_px);
+  }
+  mode_.format = choice->format;
   mode_.layout = *layout;
   mode_.layout.view.encoding = EncodingOf(pix);
+  period_ = choice->period;
   return {};
 }
 
@@ -158,7 +187,7 @@ Result<> V4l2Camera::RefuseFormats() {
     offered += FourccText(description.pixelformat).data();
   }
   std::string wanted;
-  for (const PixelFormat format : config_.formats) {
+  for (const CameraFormat format : config_.formats) {
     if (!wanted.empty()) wanted += ", ";
     wanted += FourccText(FourccOf(format)).data();
   }
@@ -174,9 +203,10 @@ Result<> V4l2Camera::NegotiateRate() {
   if ((parameters.parm.capture.capability & V4L2_CAP_TIMEPERFRAME) != 0) {
     v4l2_streamparm wanted{};
     wanted.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-    wanted.parm.capture.timeperframe.numerator = 1000;
+    const bool listed = period_.denominator != 0;
+    wanted.parm.capture.timeperframe.numerator = listed ? period_.numerator : 1000;
     wanted.parm.capture.timeperframe.denominator =
-        static_cast<std::uint32_t>(std::lround(1000 * config_.fps));
+        listed ? period_.denominator : static_cast<std::uint32_t>(std::lround(1000 * config_.fps));
     // Refused: the camera keeps the rate it has, and that one is judged.
     if (Ioctl(VIDIOC_S_PARM, &wanted) == 0) parameters = wanted;
   }
@@ -189,6 +219,14 @@ Result<> V4l2Camera::NegotiateRate() {
               "smaller picture",
               mode_.fps, mode_.layout.view.width_px, mode_.layout.view.height_px,
               config_.lowest_fps);
+}
+
+// In the dark, webcams expose longer than a frame lasts and halve their rate, unless they are told
+// not to. A camera that cannot be told keeps the manners it has.
+Result<> V4l2Camera::KeepRateSteady() {
+  v4l2_control rate_over_light{.id = V4L2_CID_EXPOSURE_AUTO_PRIORITY, .value = 0};
+  static_cast<void>(Ioctl(VIDIOC_S_CTRL, &rate_over_light));
+  return {};
 }
 
 Result<> V4l2Camera::MapBuffers() {
@@ -213,7 +251,7 @@ Result<> V4l2Camera::MapBuffers() {
     if (Ioctl(VIDIOC_QUERYBUF, &buffer) != 0) {
       return Fail(LostOr(Errc::kIo), "does not describe buffer %u: %s", i, std::strerror(errno));
     }
-    if (buffer.length < mode_.layout.bytes) {
+    if (!decoder_ && buffer.length < mode_.layout.bytes) {
       return Fail(Errc::kUnsupported, "has buffers of %u bytes for pictures of %zu", buffer.length,
                   mode_.layout.bytes);
     }

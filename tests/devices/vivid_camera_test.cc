@@ -148,16 +148,16 @@ void ExpectBars(const ImageView& image) {
 }
 
 TEST_F(VividCameraTest, ShowsTheSamePictureInEveryFormat) {
-  for (const PixelFormat format : hal::v4l2::EveryFormat()) {
+  for (const hal::CameraFormat format : hal::kEveryCameraFormat) {
+    if (format == hal::CameraFormat::kMjpeg) continue;  // vivid has none
     V4l2Config config = Config();
-    config.formats.clear();
-    ASSERT_TRUE(config.formats.try_push(format));
+    config.formats = {format};
     V4l2Camera camera(config, clock);
     SCOPED_TRACE(hal::v4l2::FourccText(hal::v4l2::FourccOf(format)).data());
     ASSERT_TRUE(camera.Start()) << camera.reason();
     const Result<Frame> frame = camera.Acquire(kAmple);
     ASSERT_TRUE(frame) << camera.reason();
-    EXPECT_EQ(frame->image.format, format);
+    EXPECT_EQ(frame->image.format, hal::PixelFormatOf(format));
     EXPECT_EQ(frame->image.width_px, 640);
     EXPECT_EQ(frame->image.height_px, 480);
     ExpectBars(frame->image);
@@ -338,7 +338,7 @@ TEST_F(VividCameraTest, AStreamThatWillNotStartMayBeTriedAgain) {
     SCOPED_TRACE(step);
     vivid.Set(step);
     EXPECT_FALSE(camera.Start());
-    EXPECT_STRNE(camera.reason(), "");
+    EXPECT_FALSE(camera.reason().empty());
     ASSERT_TRUE(camera.Start()) << camera.reason();
     ExpectFrames(camera);
     camera.Stop();

@@ -130,5 +130,17 @@ TEST(FakeCamera, CountsFramesThatWereNotGivenBack) {
   EXPECT_EQ(camera.outstanding(), 0);
 }
 
+TEST(FakeCamera, CountsDamagedPicturesSinceItsStart) {
+  Context context;
+  FakeCamera camera = context.Make();
+  ASSERT_TRUE(camera.Start());
+  EXPECT_EQ(camera.counts().damaged, 0U);
+  camera.Damage(3);
+  EXPECT_EQ(camera.counts().damaged, 3U);
+  camera.Stop();
+  ASSERT_TRUE(camera.Start());
+  EXPECT_EQ(camera.counts().damaged, 0U);
+}
+
 }  // namespace
 }  // namespace facewire::hal::fake

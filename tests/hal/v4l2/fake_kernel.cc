@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace facewire::hal::v4l2 {
 
@@ -23,7 +24,8 @@ bool FakeKernel::Interrupts() {
 
 int FakeKernel::Open(const char* path, int /*flags*/) {
   if (Interrupts()) return No(EINTR);
-  if (std::strcmp(path, kPath) != 0 || !present) return No(ENOENT);
+  const auto link = links.find(path);
+  if ((link != links.end() ? link->second : path) != node || !present) return No(ENOENT);
   if (open_error != 0) return No(open_error);
   ++open_files_;
   return kFd;
@@ -52,12 +54,14 @@ int FakeKernel::Ioctl(int fd, unsigned long request, void* argument) {
       capability.device_caps = device_caps;
       return 0;
     }
-    case VIDIOC_ENUM_FMT: {
-      auto& description = *static_cast<v4l2_fmtdesc*>(argument);
-      if (description.index >= modes.size()) return No(EINVAL);
-      description.pixelformat = modes[description.index].fourcc;
-      return 0;
-    }
+    case VIDIOC_ENUM_FMT:
+      return ListFormat(*static_cast<v4l2_fmtdesc*>(argument));
+    case VIDIOC_ENUM_FRAMESIZES:
+      return ListSize(*static_cast<v4l2_frmsizeenum*>(argument));
+    case VIDIOC_ENUM_FRAMEINTERVALS:
+      return ListRate(*static_cast<v4l2_frmivalenum*>(argument));
+    case VIDIOC_S_CTRL:
+      return SetControl(*static_cast<const v4l2_control*>(argument));
     case VIDIOC_S_FMT:
       return SetFormat(*static_cast<v4l2_format*>(argument));
     case VIDIOC_G_PARM:
@@ -85,6 +89,54 @@ int FakeKernel::Ioctl(int fd, unsigned long request, void* argument) {
     default:
       return No(ENOTTY);
   }
+}
+
+int FakeKernel::ListFormat(v4l2_fmtdesc& description) const {
+  std::vector<std::uint32_t> formats;
+  for (const FakeMode& mode : modes) {
+    if (std::ranges::find(formats, mode.fourcc) == formats.end()) formats.push_back(mode.fourcc);
+  }
+  if (description.index >= formats.size()) return No(EINVAL);
+  description.pixelformat = formats[description.index];
+  return 0;
+}
+
+int FakeKernel::ListSize(v4l2_frmsizeenum& size) const {
+  std::uint32_t index = 0;
+  for (const FakeMode& mode : modes) {
+    if (mode.fourcc != size.pixel_format || index++ != size.index) continue;
+    size.type = V4L2_FRMSIZE_TYPE_DISCRETE;
+    size.discrete = {.width = mode.width, .height = mode.height};
+    return 0;
+  }
+  return No(EINVAL);
+}
+
+int FakeKernel::ListRate(v4l2_frmivalenum& rate) const {
+  for (const FakeMode& mode : modes) {
+    if (mode.fourcc != rate.pixel_format || mode.width != rate.width ||
+        mode.height != rate.height) {
+      continue;
+    }
+    if (rate.index >= (mode.range ? 1 : mode.rates.size())) break;
+    if (mode.range) {
+      rate.type = V4L2_FRMIVAL_TYPE_CONTINUOUS;
+      rate.stepwise.min = {.numerator = 1, .denominator = mode.rates[0]};
+      rate.stepwise.max = {.numerator = 1, .denominator = mode.rates[1]};
+    } else {
+      rate.type = V4L2_FRMIVAL_TYPE_DISCRETE;
+      rate.discrete = {.numerator = 1, .denominator = mode.rates[rate.index]};
+    }
+    return 0;
+  }
+  return No(EINVAL);
+}
+
+int FakeKernel::SetControl(const v4l2_control& control) {
+  const auto found = controls.find(control.id);
+  if (found == controls.end()) return No(EINVAL);
+  found->second = control.value;
+  return 0;
 }
 
 // As drivers do: an unknown format becomes the first one, an unknown size the nearest of the
@@ -116,18 +168,23 @@ int FakeKernel::SetFormat(v4l2_format& format) {
 
 int FakeKernel::Rate(v4l2_streamparm& parameters, bool set) {
   if (!has_rate) return No(ENOTTY);
+  const std::vector<std::uint32_t>& has = mode_.rates.empty() ? rates : mode_.rates;
   v4l2_captureparm& capture = parameters.parm.capture;
   if (set) {
     if (rate_error != 0) return No(rate_error);
     const double wanted =
         static_cast<double>(capture.timeperframe.denominator) / capture.timeperframe.numerator;
-    rate_ = *std::ranges::min_element(
-        rates, {}, [wanted](std::uint32_t rate) { return std::abs(rate - wanted); });
+    rate_ = wanted;
+    if (!mode_.range) {
+      rate_ = *std::ranges::min_element(has, {},
+                                        [wanted](double rate) { return std::abs(rate - wanted); });
+    }
   } else {
-    rate_ = rates.front();
+    rate_ = has.front();
   }
   capture.capability = rate_is_settable ? V4L2_CAP_TIMEPERFRAME : 0;
-  capture.timeperframe = {.numerator = 1, .denominator = rate_};
+  capture.timeperframe = {.numerator = 1000,
+                          .denominator = static_cast<std::uint32_t>(std::lround(1000 * rate_))};
   return 0;
 }
 
@@ -187,6 +244,7 @@ int FakeKernel::PollReadable(int fd, int /*timeout_ms*/, short* revents) {
   if (fd != kFd) return No(EBADF);
   if (Interrupts()) return No(EINTR);
   *revents = 0;
+  if (filled_.empty() && on_empty_poll) std::exchange(on_empty_poll, nullptr)();
   if (!present) {
     *revents = POLLERR | POLLHUP;
   } else if (!streaming_) {
@@ -206,12 +264,30 @@ bool FakeKernel::Capture(std::uint32_t sequence, std::int64_t stamp_us, std::uin
   std::vector<std::uint8_t>& memory = memory_[buffer.index];
   std::ranges::fill(memory, value);
   buffer.bytesused = whole ? mode_.sizeimage : mode_.sizeimage - 1;
-  buffer.flags = stamps | flags;
+  buffer.flags = flags;
+  Fill(buffer, sequence, stamp_us);
+  return true;
+}
+
+bool FakeKernel::CaptureJpeg(std::uint32_t sequence, std::int64_t stamp_us,
+                             const std::vector<std::uint8_t>& jpeg) {
+  if (!streaming_ || queued_.empty()) return false;
+  v4l2_buffer buffer{};
+  buffer.index = queued_.front();
+  queued_.pop_front();
+  std::vector<std::uint8_t>& memory = memory_[buffer.index];
+  buffer.bytesused = static_cast<std::uint32_t>(jpeg.size());
+  std::copy_n(jpeg.begin(), std::min(jpeg.size(), memory.size()), memory.begin());
+  Fill(buffer, sequence, stamp_us);
+  return true;
+}
+
+void FakeKernel::Fill(v4l2_buffer buffer, std::uint32_t sequence, std::int64_t stamp_us) {
+  buffer.flags |= stamps;
   buffer.sequence = sequence;
   buffer.timestamp.tv_sec = stamp_us / 1'000'000;
   buffer.timestamp.tv_usec = stamp_us % 1'000'000;
   filled_.push_back(buffer);
-  return true;
 }
 
 void FakeKernel::Unplug() {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct FakeMode {
   std::uint32_t height = 480;
   std::uint32_t bytesperline = 0;
   std::uint32_t sizeimage = 0;
+  std::vector<std::uint32_t> rates = {};  // in Hz, as listed; empty: not listed
+  bool range = false;                     // rates are the fastest and the slowest of a range
 };
 
 // A capture device with the kernel's manners: what one call leaves behind the next one sees, and
@@ -29,6 +32,8 @@ class FakeKernel final : public SystemCalls {
  public:
   static constexpr const char* kPath = "/dev/video7";
 
+  std::string node = kPath;                  // of the device; a replug may give it another
+  std::map<std::string, std::string> links;  // to nodes, as udev makes them
   bool present = true;
   bool interrupted = false;  // every call fails once with EINTR before it does its work
   int open_error = 0;        // errno of Open, 0: none
@@ -41,15 +46,19 @@ class FakeKernel final : public SystemCalls {
   int format_error = 0;  // errno of S_FMT
   bool has_rate = true;  // G_PARM works
   bool rate_is_settable = true;
-  int rate_error = 0;  // errno of S_PARM
-  std::vector<std::uint32_t> rates = {30, 15};
-  int buffers_error = 0;  // errno of REQBUFS
+  int rate_error = 0;                           // errno of S_PARM
+  std::vector<std::uint32_t> rates = {30, 15};  // of modes that list none
+  std::map<std::uint32_t, int> controls;        // those that it has, by V4L2_CID_...
+  int buffers_error = 0;                        // errno of REQBUFS
   std::uint32_t most_buffers = 32;
   std::uint32_t buffer_bytes = 0;  // 0: the mode's sizeimage
   int stream_error = 0;            // errno of STREAMON
   int dequeue_error = 0;           // errno of DQBUF, with the device still there
   std::uint32_t stamps = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
 
+  static FakeMode Mjpeg(std::uint32_t width, std::uint32_t height) {
+    return {V4L2_PIX_FMT_MJPEG, width, height, 0, width * height};
+  }
   static FakeMode Packed(std::uint32_t fourcc, std::uint32_t width, std::uint32_t height,
                          std::uint32_t bytes_per_pixel) {
     return {fourcc, width, height, width * bytes_per_pixel, width * height * bytes_per_pixel};
@@ -58,9 +67,15 @@ class FakeKernel final : public SystemCalls {
     return {fourcc, width, height, width, width * height * 3 / 2};
   }
 
+  // Called once, when a wait finds nothing, before it answers: what happens while the camera waits.
+  std::function<void()> on_empty_poll;
+
   // The sensor delivers a picture whose every byte is `value`. False when no buffer is free.
   bool Capture(std::uint32_t sequence, std::int64_t stamp_us, std::uint8_t value,
                std::uint32_t flags = 0, bool whole = true);
+  // One of compressed bytes.
+  bool CaptureJpeg(std::uint32_t sequence, std::int64_t stamp_us,
+                   const std::vector<std::uint8_t>& jpeg);
   void Unplug();
 
   // What is left behind: 0 after everything was given back.
@@ -82,11 +97,16 @@ class FakeKernel final : public SystemCalls {
   static int No(int error);
   bool Interrupts();
   int SetFormat(v4l2_format& format);
+  int ListFormat(v4l2_fmtdesc& description) const;
+  int ListSize(v4l2_frmsizeenum& size) const;
+  int ListRate(v4l2_frmivalenum& rate) const;
+  int SetControl(const v4l2_control& control);
   int Rate(v4l2_streamparm& parameters, bool set);
   int RequestBuffers(v4l2_requestbuffers& request);
   int QueryBuffer(v4l2_buffer& buffer);
   int QueueBuffer(const v4l2_buffer& buffer);
   int DequeueBuffer(v4l2_buffer& buffer);
+  void Fill(v4l2_buffer buffer, std::uint32_t sequence, std::int64_t stamp_us);
 
   bool interrupt_next_ = true;
   int open_files_ = 0;
@@ -94,7 +114,7 @@ class FakeKernel final : public SystemCalls {
   int polls_ = 0;
   bool streaming_ = false;
   FakeMode mode_;
-  std::uint32_t rate_ = 30;
+  double rate_ = 30;
   std::vector<std::vector<std::uint8_t>> memory_;
   std::deque<std::uint32_t> queued_;
   std::deque<v4l2_buffer> filled_;

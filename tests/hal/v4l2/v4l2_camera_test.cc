@@ -5,38 +5,13 @@
 
 #include <cerrno>
 
-#include "hal/fake/fake_clock.h"
-#include "tests/hal/v4l2/fake_kernel.h"
+#include "tests/hal/v4l2/camera_context.h"
 #include "tests/support/allocation_counter.h"
 
 namespace facewire::hal::v4l2 {
 namespace {
 
-using std::chrono::milliseconds;
 using testing::HasSubstr;
-
-constexpr milliseconds kWait{50};
-
-struct V4l2CameraTest : public ::testing::Test {
-  FakeKernel kernel;
-  fake::FakeClock clock{Time{milliseconds(12345)}};
-  V4l2Config config = {.device = FakeKernel::kPath};
-
-  V4l2Camera Make() { return {config, clock, kernel}; }
-  // The error of Start, with everything given back; its reason must say which device.
-  Errc StartError(const std::string& says) {
-    V4l2Camera camera = Make();
-    const Result<> started = camera.Start();
-    EXPECT_FALSE(started);
-    EXPECT_THAT(camera.reason(), HasSubstr(config.device + ": "));
-    EXPECT_THAT(camera.reason(), HasSubstr(says));
-    EXPECT_EQ(kernel.open_files(), 0);
-    EXPECT_EQ(kernel.maps(), 0);
-    return started ? Errc{} : started.error();
-  }
-};
-
-int Value(const Frame& frame) { return frame.image.planes[0].data[0]; }
 
 TEST_F(V4l2CameraTest, HandsOutTheDriversFrames) {
   V4l2Camera camera = Make();
@@ -79,7 +54,7 @@ TEST_F(V4l2CameraTest, EveryFormatCanBeTaken) {
       {FakeKernel::Planar(V4L2_PIX_FMT_YUV420, 640, 480), PixelFormat::kI420},
   };
   for (const auto& row : rows) {
-    kernel.modes = {{.fourcc = V4L2_PIX_FMT_MJPEG, .sizeimage = 100000}, row.mode};
+    kernel.modes = {{.fourcc = V4L2_PIX_FMT_H264, .sizeimage = 100000}, row.mode};
     V4l2Camera camera = Make();
     ASSERT_TRUE(camera.Start()) << camera.reason();
     ASSERT_TRUE(kernel.Capture(0, 1, 77));
@@ -111,10 +86,10 @@ TEST_F(V4l2CameraTest, WithoutTheSizeTheBestFormatsNearestSizeIsTaken) {
   EXPECT_EQ(camera.Acquire(kWait)->image.height_px, 600);
 }
 
-TEST_F(V4l2CameraTest, ACameraWithOnlyCompressedFormatsIsRefusedByName) {
-  kernel.modes = {{.fourcc = V4L2_PIX_FMT_MJPEG, .sizeimage = 100000},
+TEST_F(V4l2CameraTest, ACameraWithOnlyFormatsThatNobodyReadsIsRefusedByName) {
+  kernel.modes = {{.fourcc = V4L2_PIX_FMT_HEVC, .sizeimage = 100000},
                   {.fourcc = V4L2_PIX_FMT_H264, .sizeimage = 100000}};
-  EXPECT_EQ(StartError("Fake Camera offers only MJPG, H264; one of YUYV, NV12"),
+  EXPECT_EQ(StartError("Fake Camera offers only HEVC, H264; one of YUYV, NV12"),
             Errc::kUnsupported);
 }
 
@@ -269,7 +244,7 @@ TEST_F(V4l2CameraTest, DamagedFramesAreCountedAndDropped) {
   const Result<Frame> frame = camera.Acquire(kWait);
   ASSERT_TRUE(frame);
   EXPECT_EQ(Value(*frame), 1);
-  EXPECT_EQ(camera.stats().damaged, 2U);
+  EXPECT_EQ(camera.counts().damaged, 2U);
   EXPECT_EQ(kernel.queued(), 3U);
   camera.Release(*frame);
   ASSERT_TRUE(kernel.Capture(3, 4000, 4, V4L2_BUF_FLAG_ERROR));
@@ -308,6 +283,65 @@ TEST_F(V4l2CameraTest, AnUnpluggedCameraIsDisconnectedAndStartsAgainWhenItIsBack
   ASSERT_TRUE(camera.Start()) << camera.reason();
   ASSERT_TRUE(kernel.Capture(0, 2000, 2));
   EXPECT_EQ(Value(*camera.Acquire(kWait)), 2);
+}
+
+TEST_F(V4l2CameraTest, AReplugThatRenumbersTheNodeIsFoundByItsLink) {
+  config.device = "/dev/v4l/by-id/usb-Maker_Camera_123-video-index0";
+  kernel.links[config.device] = kernel.node;
+  V4l2Camera camera = Make();
+  ASSERT_TRUE(camera.Start()) << camera.reason();
+  kernel.Unplug();
+  kernel.links.clear();
+  EXPECT_EQ(camera.Acquire(kWait).error(), Errc::kDisconnected);
+  EXPECT_EQ(camera.Start().error(), Errc::kNotFound);
+  // Somebody else still holds the old node, so the camera comes back as another.
+  kernel.present = true;
+  kernel.node = "/dev/video9";
+  EXPECT_EQ(camera.Start().error(), Errc::kNotFound);
+  kernel.links[config.device] = kernel.node;
+  ASSERT_TRUE(camera.Start()) << camera.reason();
+  ASSERT_TRUE(kernel.Capture(0, 2000, 2));
+  EXPECT_EQ(Value(*camera.Acquire(kWait)), 2);
+}
+
+TEST_F(V4l2CameraTest, ACameraThatFallsSilentCanBeStoppedAndStartedAgain) {
+  V4l2Camera camera = Make();
+  ASSERT_TRUE(camera.Start());
+  ASSERT_TRUE(kernel.Capture(0, 1000, 1));
+  const Result<Frame> held = camera.Acquire(kWait);
+  ASSERT_TRUE(held);
+  camera.Release(*held);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(camera.Acquire(kWait).error(), Errc::kTimeout);
+    EXPECT_TRUE(camera.reason().empty());
+  }
+  camera.Stop();
+  EXPECT_EQ(kernel.open_files(), 0);
+  ASSERT_TRUE(camera.Start());
+  ASSERT_TRUE(kernel.Capture(0, 2000, 2));
+  EXPECT_EQ(Value(*camera.Acquire(kWait)), 2);
+}
+
+TEST_F(V4l2CameraTest, SaysWhenASilentCameraSendsOnlyDamagedPictures) {
+  V4l2Camera camera = Make();
+  ASSERT_TRUE(camera.Start());
+  ASSERT_TRUE(kernel.Capture(0, 1000, 1, V4L2_BUF_FLAG_ERROR));
+  EXPECT_EQ(camera.Acquire(kWait).error(), Errc::kTimeout);
+  EXPECT_THAT(camera.reason(), HasSubstr("sends only damaged pictures"));
+  EXPECT_EQ(camera.counts().damaged, 1U);
+  EXPECT_EQ(camera.Acquire(kWait).error(), Errc::kTimeout);
+  EXPECT_EQ(camera.reason(), "");
+}
+
+TEST_F(V4l2CameraTest, CountsAreSinceStart) {
+  V4l2Camera camera = Make();
+  ASSERT_TRUE(camera.Start());
+  ASSERT_TRUE(kernel.Capture(0, 1000, 1, V4L2_BUF_FLAG_ERROR));
+  EXPECT_FALSE(camera.Acquire(kWait));
+  camera.Stop();
+  EXPECT_EQ(camera.counts().damaged, 1U);
+  ASSERT_TRUE(camera.Start());
+  EXPECT_EQ(camera.counts().damaged, 0U);
 }
 
 TEST_F(V4l2CameraTest, AnErrorOfACameraThatIsStillThereLeavesItRunning) {
@@ -386,7 +420,7 @@ TEST(V4l2Camera, TheRunningKernelRefusesWhatIsNoCamera) {
   EXPECT_EQ(missing.Start().error(), Errc::kNotFound);
   V4l2Camera null({.device = "/dev/null"}, clock);
   EXPECT_EQ(null.Start().error(), Errc::kUnsupported);
-  EXPECT_STREQ(null.reason(), "/dev/null: not a video device");
+  EXPECT_EQ(null.reason(), "/dev/null: not a video device");
 }
 
 }  // namespace
