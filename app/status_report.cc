@@ -98,7 +98,7 @@ std::array<char, kMaxReportBytes> ToJson(const StatusReport& report) noexcept {
   o.Text("line", report.line_address);
   o.Text("line_state", report.line_address.empty() ? "none"
                        : !report.line.connected()  ? "gone"
-                       : stuck                     ? "stuck"
+                       : stuck                     ? "takes nothing"
                                                    : "up");
   o.Count("poses_sent", line.poses).Count("poses_dropped", line.poses_dropped);
   o.Count("line_bytes", line.bytes);

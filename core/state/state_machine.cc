@@ -67,10 +67,14 @@ Result<> StateMachine::Configure(const StateConfig& config) noexcept {
 }
 
 void StateMachine::Restart(Time now) noexcept {
+  const bool first = !started_;
   now_ = started_ ? std::max(now_, now) : now;
   started_ = true;
   last_picture_ = now_;
   if (state_ != ServiceState::kStopped) Enter(ServiceState::kStarting);
+  // What is sent first is neutral: there is nothing to ramp from, and a head that is switched on
+  // should soon be alive.
+  if (first) blend_time_ = Duration::zero();
 }
 
 bool StateMachine::SettledAtNeutral() const noexcept {

@@ -12,7 +12,8 @@ namespace facewire::state {
 
 // Times of the failsafe contract: hold, ease to neutral, torque off. The same for every host.
 struct StateConfig {
-  Duration start_ramp = std::chrono::milliseconds(1500);  // from the first pose sent to neutral
+  // From where a stop or a fault left off to neutral. (At power-on the first pose is neutral.)
+  Duration start_ramp = std::chrono::milliseconds(1500);
   Duration acquire = std::chrono::milliseconds(300);  // fade-in of a face that was found (again)
   Duration hold = std::chrono::milliseconds(400);     // the last pose is kept when a face is lost
   Duration ease = std::chrono::milliseconds(1500);    // from there to neutral

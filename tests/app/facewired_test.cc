@@ -1,118 +1,25 @@
 // The program as its users meet it: started with real footage and networks, listened to over a
 // pseudo-terminal, asked by signals.
 
+#include "tests/app/facewired.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/socket.h>
-#include <sys/un.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <optional>
 #include <thread>
 
 #include "app/profile_file.h"
-#include "core/wire/decoder.h"
 #include "core/wire/pose.h"
-#include "core/wire/rig_description.h"
-#include "hal/pty/pty_port.h"
-#include "tests/app/process.h"
-#include "tests/app/scratch.h"
+#include "tests/app/notified.h"
 
 namespace facewire::app {
 namespace {
 
-using std::chrono::milliseconds;
-using std::chrono::seconds;
 using ::testing::HasSubstr;
-
-const char* const kRig = FACEWIRE_SOURCE_DIR "/app/share/otto.toml";
-const char* const kProfile = FACEWIRE_SOURCE_DIR "/app/share/average.profile";
-
-// A configuration of the mock hardware. `extra` comes behind it.
-std::string Configuration(const std::string& extra = "", const std::string& rig = kRig,
-                          const std::string& profile = kProfile) {
-  return "[camera]\ndevice = \"replay\"\n[camera.replay]\nfile = \"" FACEWIRE_ASSETS
-         "/footage/franck.mp4\"\nmemory_mib = 64\nloop = \"ping-pong\"\n"
-         "[tracker]\nnetworks = \"" FACEWIRE_ASSETS "/networks\"\n[character]\nrig = \"" +
-         rig + "\"\nprofile = \"" + profile +
-         "\"\n[neutral]\nfolder = \"state\"\nauto_s = 1.0\n[host]\nline = \"pty:line\"\n"
-         "[states]\nstart_ramp_ms = 200\nease_ms = 300\n" +
-         extra;
-}
-
-// What a host hears.
-class Listener {
- public:
-  explicit Listener(const std::filesystem::path& link) : port_(link.string()) {}
-
-  // Listens until `done` says so; false when that takes too long.
-  bool Until(const std::function<bool()>& done, seconds limit = seconds(60)) {
-    const auto end = std::chrono::steady_clock::now() + limit;
-    while (!done()) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      Read();
-    }
-    return true;
-  }
-
-  wire::RigCollector rig;
-  std::vector<wire::Pose> poses;
-  std::vector<wire::Status> statuses;
-  bool hung_up = false;
-  const wire::LinkStats& stats() const { return decoder_.stats(); }
-  ServiceState state() const {
-    return poses.empty() ? ServiceState::kStarting : poses.back().state;
-  }
-
- private:
-  void Read() {
-    if (!open_) {
-      open_ = port_.Open().has_value();
-      if (!open_) {
-        std::this_thread::sleep_for(milliseconds(10));
-        return;
-      }
-    }
-    std::array<std::byte, 4096> buffer;
-    const auto read = port_.Read(buffer, milliseconds(100));
-    if (!read) {
-      hung_up = hung_up || read.error() == Errc::kDisconnected;
-      if (hung_up) std::this_thread::sleep_for(milliseconds(10));
-      return;
-    }
-    std::span<const std::byte> rest = std::span(buffer).first(*read);
-    for (;;) {
-      const auto got = decoder_.Next(rest);
-      if (!got) {
-        if (got.error() == Errc::kNotReady) return;
-        continue;
-      }
-      rig.Add(got->message);
-      if (const auto* pose = std::get_if<wire::Pose>(&got->message)) poses.push_back(*pose);
-      if (const auto* s = std::get_if<wire::Status>(&got->message)) statuses.push_back(*s);
-    }
-  }
-
-  hal::pty::PtyPort port_;
-  bool open_ = false;
-  wire::Decoder decoder_;
-};
-
-class Facewired {
- public:
-  explicit Facewired(const std::string& configuration) {
-    scratch.Write("facewire.toml", configuration);
-  }
-  Process Start(std::vector<std::string> options = {},
-                const std::vector<std::pair<std::string, std::string>>& environment = {}) {
-    options.insert(options.begin(), {FACEWIRED, "--config", (scratch / "facewire.toml").string()});
-    return Process(options, scratch / "out", scratch / "err", environment);
-  }
-  Scratch scratch;
-};
 
 TEST(Facewired, FollowsFootageOnAPseudoTerminalAndEndsAtNeutral) {
   Facewired f(Configuration());
@@ -192,12 +99,6 @@ TEST(Facewired, ReloadsOnSighupAndKeepsTheOldRigWhenTheNewOneIsBad) {
   EXPECT_EQ(process.Wait(), 0);
 }
 
-// Runs `facewire ARGUMENTS` to its end.
-Process Tool(const Facewired& f, std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), FACEWIRE_TOOL);
-  return {arguments, f.scratch / "tool.out", f.scratch / "tool.err"};
-}
-
 TEST(Facewired, TakesAndKeepsANeutralOnCommandAcrossARestartAndACrash) {
   Facewired f(Configuration("[control]\nsocket = \"control\"\n"));
   const std::filesystem::path file = f.scratch / "state/performer.neutral";
@@ -214,8 +115,7 @@ TEST(Facewired, TakesAndKeepsANeutralOnCommandAcrossARestartAndACrash) {
     waiting.join();
     EXPECT_EQ(code, 0) << calibrate.err();
     EXPECT_EQ(calibrate.out(), "the neutral was taken, and is kept\n");
-    process.Signal(SIGKILL);
-    EXPECT_EQ(process.Wait(), -1);
+    f.Crash(process);
   }
   EXPECT_TRUE(std::filesystem::exists(f.scratch / "control")) << "it had no time to clear up";
   const std::string kept = ReadAll(file);
@@ -268,36 +168,17 @@ TEST(Facewired, RunsWithoutAControlSocketWhereThereCanBeNone) {
 
 TEST(Facewired, TellsSystemdHowItFares) {
   Facewired f(Configuration());
-  const std::string path = (f.scratch / "notify").string();
-  const int notify = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  ASSERT_GE(notify, 0);
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  ASSERT_LT(path.size(), sizeof(address.sun_path));
-  std::memcpy(address.sun_path, path.c_str(), path.size());
-  ASSERT_EQ(::bind(notify, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
-  const timeval limit{60, 0};
-  ::setsockopt(notify, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof(limit));
-  std::string heard;
-  const auto until = [&](const char* message) {
-    std::array<char, 512> buffer;
-    while (heard.find(message) == std::string::npos) {
-      const ssize_t size = ::recv(notify, buffer.data(), buffer.size(), 0);
-      if (size <= 0) return false;
-      heard += std::string(buffer.data(), static_cast<std::size_t>(size)) + "\n";
-    }
-    return true;
-  };
-  Process process = f.Start({"--fake"}, {{"NOTIFY_SOCKET", path}, {"WATCHDOG_USEC", "400000"}});
-  EXPECT_TRUE(until("READY=1")) << process.err();
-  EXPECT_TRUE(until("WATCHDOG=1\nWATCHDOG=1") || until("WATCHDOG=1"));
-  EXPECT_TRUE(until("STATUS=tracking"));
+  Notified systemd;
+  Process process =
+      f.Start({"--fake"}, {{"NOTIFY_SOCKET", systemd.path()}, {"WATCHDOG_USEC", "400000"}});
+  EXPECT_TRUE(systemd.Until("READY=1")) << process.err();
+  EXPECT_TRUE(systemd.Until("WATCHDOG=1"));
+  EXPECT_TRUE(systemd.Until("STATUS=tracking"));
   process.Signal(SIGHUP);
-  EXPECT_TRUE(until("RELOADING=1\nMONOTONIC_USEC="));
+  EXPECT_TRUE(systemd.Until("RELOADING=1\nMONOTONIC_USEC="));
   process.Signal(SIGTERM);
-  EXPECT_TRUE(until("STOPPING=1"));
+  EXPECT_TRUE(systemd.Until("STOPPING=1"));
   EXPECT_EQ(process.Wait(), 0);
-  ::close(notify);
 }
 
 TEST(Facewired, ReadOnlyNeverMakesALine) {

@@ -43,7 +43,7 @@ class Context {
                       "[gpio]\nstop_line = \"stop\"\ncalibrate_line = \"button\"\n"
                       "status_led_line = \"led\"\nservo_power_line = \"power\"\n");
     application.emplace(ApplicationOptions{.config = scratch / "facewire.toml", .fake = true},
-                        clock);
+                        clock, journal);
     application->Open();
     reader.emplace((scratch / "line").string());
     EXPECT_TRUE(reader->Open());
@@ -93,6 +93,7 @@ class Context {
 
   Scratch scratch;
   hal::SystemClock clock;
+  Journal journal;
   std::optional<Application> application;
   std::optional<hal::pty::PtyPort> reader;
   std::optional<hal::local::LocalPort> operator_line;

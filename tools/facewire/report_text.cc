@@ -95,8 +95,9 @@ std::optional<std::string> ReportText(std::string_view json) {
   std::array<char, 32> memory;
   (void)std::snprintf(memory.data(), memory.size(), "%.1f MiB", mib);
   text += "process  up " + TimeText(get("uptime_s")) + ", " + memory.data() + ", " +
-          get("threads") + " threads, searching after " + get("searching_after_s") +
-          " s, facewired " + get("version") + "\n";
+          get("threads") + " threads, facewired " + get("version");
+  const std::string after_s = get("searching_after_s");
+  text += after_s == "0" || after_s == "?" ? "\n" : ", was searching after " + after_s + " s\n";
   return text;
 }
 

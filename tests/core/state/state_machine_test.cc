@@ -88,11 +88,12 @@ TEST(StateMachine, FollowsTheTransitionTable) {
   using C = Context;
   constexpr milliseconds kTick{10};
   const std::vector<Row> table = {
-      {S::kStarting, C::kFace, kTick, S::kStarting, "a face must not cut the ramp short"},
-      {S::kStarting, C::kFace, milliseconds(150), S::kStarting, "the ramp takes 200 ms"},
-      {S::kStarting, C::kNoFace, milliseconds(400), S::kSearching, "the ramp is over"},
-      {S::kStarting, C::kSilence, milliseconds(400), S::kSearching, "the ramp needs no camera"},
-      {S::kStarting, C::kLineGone, kTick, S::kFault, "nobody receives the ramp"},
+      {S::kStarting, C::kFace, kTick, S::kStarting, "a face must not cut the start short"},
+      {S::kStarting, C::kFace, milliseconds(30), S::kStarting, "neutral frames come first"},
+      {S::kFault, C::kFace, milliseconds(150), S::kStarting, "the ramp takes 200 ms"},
+      {S::kStarting, C::kNoFace, milliseconds(400), S::kSearching, "they were sent"},
+      {S::kStarting, C::kSilence, milliseconds(400), S::kSearching, "that needs no camera"},
+      {S::kStarting, C::kLineGone, kTick, S::kFault, "nobody receives them"},
       {S::kSearching, C::kFace, kTick, S::kTracking, "found"},
       {S::kSearching, C::kRejected, kTick, S::kSearching, "a wrong face is no face"},
       {S::kSearching, C::kNoFace, milliseconds(2100), S::kResting, "neutral for rest_after"},
