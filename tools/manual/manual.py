@@ -2,11 +2,12 @@
 """Writes the manual pages and the shells' completions, from the templates in this folder and from what the programs
 and the example configuration say of themselves: so none of them can fall behind.
 
-usage: manual.py --version V --date DATE --config TOML --out FOLDER --facewire COMMAND... --facewired COMMAND...
+usage: manual.py --version V --date DATE --config TOML --out FOLDER --facewire COMMAND --facewired COMMAND
 """
 
 import argparse
 import pathlib
+import shlex
 
 import completion
 import help_text
@@ -19,9 +20,9 @@ def main():
     parser.add_argument("--date", required=True)
     parser.add_argument("--config", type=pathlib.Path, required=True)
     parser.add_argument("--out", type=pathlib.Path, required=True)
-    # More than one word each: an emulator runs what was cross-built.
-    parser.add_argument("--facewire", nargs="+", required=True)
-    parser.add_argument("--facewired", nargs="+", required=True)
+    # Words of a shell: an emulator with options of its own runs what was cross-built.
+    parser.add_argument("--facewire", type=shlex.split, required=True)
+    parser.add_argument("--facewired", type=shlex.split, required=True)
     arguments = parser.parse_args()
 
     facewire = help_text.read(arguments.facewire)

@@ -134,6 +134,15 @@ class Pages(unittest.TestCase):
             self.assertEqual(said, "")
 
 
+    def test_a_program_may_need_an_emulator_with_options(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([sys.executable, "-B", SOURCES / "tools/manual/manual.py", "--version", "1", "--date",
+                            "2020-01-01", "--config", SOURCES / "app/share/facewire.toml", "--out", folder,
+                            "--facewire", f"'env' '-u' 'NOTHING' {PROGRAMS['facewire']}",
+                            "--facewired", f"'env' '-u' 'NOTHING' {PROGRAMS['facewired']}"], check=True)
+            self.assertTrue((pathlib.Path(folder) / "facewire.1").is_file())
+
+
 class Completion(unittest.TestCase):
     def test_bash_takes_what_was_written(self):
         for program in PROGRAMS:
