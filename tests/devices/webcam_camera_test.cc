@@ -164,7 +164,7 @@ TEST_P(WebcamTest, FramesRiseInNumberAndTimeAtTheCamerasRate) {
     ASSERT_TRUE(frame) << camera->reason();
     const Duration age = clock.Now() - frame->captured;
     EXPECT_GE(age, Duration::zero());
-    EXPECT_LT(age, seconds(1));
+    EXPECT_LT(age, seconds(5));  // of an emulated processor that has other things to do, too
     if (i == 0) {
       first = *frame;
     } else {
