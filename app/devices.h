@@ -40,7 +40,7 @@ struct CameraOptions {
   std::size_t memory_bytes = 0;  // see hal::replay::ReplayConfig
 };
 
-// The camera by its address: "v4l2:/dev/videoN", "replay:FILE" or just FILE (a video). Touches no
+// The camera by its address: "v4l2:/dev/videoN", "libcamera:N", "libcamera:ID", "replay:FILE" or just FILE (a video). Touches no
 // device yet. BadInput for a camera that this program has no backend for. `clock` is borrowed.
 std::unique_ptr<hal::Camera> MakeCamera(const std::string& address, const CameraOptions& options,
                                         hal::Clock& clock);
