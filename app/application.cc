@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <system_error>
 #include <utility>
 
 #include "app/answer_text.h"
@@ -12,6 +14,7 @@
 #include "app/networks.h"
 #include "app/neutral_file.h"
 #include "app/rig_file.h"
+#include "app/status_report.h"
 #include "core/wire/rig_description.h"
 #include "hal/fake/fake_camera.h"
 #include "hal/replay/replay_camera.h"
@@ -20,7 +23,6 @@ namespace facewire::app {
 namespace {
 
 using std::chrono::milliseconds;
-using std::chrono::seconds;
 
 // The address of the recording or camera.
 std::string CameraAddress(const CameraConfig& camera, bool fake) {
@@ -40,6 +42,7 @@ CameraOptions CameraOptionsOf(const CameraConfig& camera) {
   options.width_px = camera.width_px;
   options.height_px = camera.height_px;
   options.fps = camera.fps;
+  options.format = camera.format;
   options.pace =
       camera.replay.pace == ReplayConfig::Pace::kFast ? hal::Pace::kFast : hal::Pace::kRealTime;
   switch (camera.replay.loop) {
@@ -80,20 +83,10 @@ std::unique_ptr<Profile> LoadLiveProfile(const std::filesystem::path& path) {
   return profile;
 }
 
-// One line to the journal; never more than once a second from the loop. Does not allocate.
-void Log(const char* text) noexcept {
-  std::array<char, 512> line;
-  const int size = std::snprintf(line.data(), line.size(), "facewired: %s\n", text);
-  if (size <= 0) return;
-  const auto shown = std::min(static_cast<std::size_t>(size), line.size() - 1);
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), shown);
-}
-
-void LogAnswer(const wire::Acknowledgement& answer) noexcept {
-  std::array<char, 256> text;
-  (void)std::snprintf(text.data(), text.size(), "button: %s: %s", Name(answer.code),
-                      AnswerText(answer).data());
-  Log(text.data());
+// Where an emergency stop is remembered: for good, and, when that is impossible, over a restart of
+// the service (RuntimeDirectoryPreserve in the unit).
+std::vector<std::string> LatchFolders(const Config& config) {
+  return {config.neutral.folder.string(), config.control.socket.parent_path().string()};
 }
 
 // Calls `part`; what is wrong with it joins what was wrong before.
@@ -109,13 +102,15 @@ void Collect(std::string& problems, Part part) {
 
 }  // namespace
 
-Application::Application(const ApplicationOptions& options, hal::Clock& clock)
+Application::Application(const ApplicationOptions& options, hal::Clock& clock, Journal& journal)
     : options_(options),
       clock_(clock),
+      journal_(journal),
       config_(LoadConfig(options.config)),
       path_({.tracker = config_.tracker.tracker, .filter = config_.filter, .pose = config_.pose}),
       camera_address_(CameraAddress(config_.camera, options.fake)),
-      line_address_(LineAddress(config_.host, options)) {
+      line_address_(LineAddress(config_.host, options)),
+      latch_(LatchFolders(config_)) {
   Build();
 }
 
@@ -203,12 +198,21 @@ ServiceConfig Application::ServiceConfigOf(const Config& config) const {
   service.min_rate_hz = config.host.min_rate_hz;
   service.describe_every = milliseconds(static_cast<int>(1000 * config.host.describe_every_s));
   service.media_time = PlaysFast();
+  // Nobody at the other end of a pseudo-terminal is no fault.
+  service.line_stuck_after = line_address_.starts_with("pty:")
+                                 ? Duration::zero()
+                                 : milliseconds(static_cast<int>(1000 * config.host.stuck_after_s));
   return service;
 }
 
 void Application::Open() {
   // First, so that a second service hears of the first one and not of a busy camera.
   const std::string no_control = OpenControl();
+  // Then these, because a process that was killed may have left the servos with power. A line that
+  // was asked for and cannot be had is a reason not to start: an emergency stop that does nothing
+  // is worse than none.
+  lines_ = OpenGpioLines(config_.gpio, options_.fake, clock_);
+  PrepareStorage();
   if (camera_address_.empty()) {
     // Nothing to play: a grey picture, in which nobody is.
     blank_view_.width_px = config_.camera.width_px;
@@ -241,13 +245,42 @@ void Application::Open() {
           .follower = follower_,
           .capture = capture_,
           .control = &control_,
-          .stop = nullptr,
-          .calibrate = nullptr,
+          .stop = lines_.stop.get(),
+          .calibrate = lines_.calibrate.get(),
+          .status_led = lines_.status_led.get(),
+          .servo_power = lines_.servo_power.get(),
           .keep_neutral = [this](const retarget::Neutral& neutral) { return KeepNeutral(neutral); },
-          .log_answer = LogAnswer},
+          .latch = &latch_,
+          .log_answer =
+              [this](const wire::Acknowledgement& answer) {
+                journal_.Write(Event::kButtonPress, AnswerText(answer).data(), Name(answer.code));
+              },
+          .log_panel = [this](const char* text) { journal_.Write(Event::kBoardLine, text); }},
       *characters_[running_]);
   TakeStoredNeutral();
-  if (!no_control.empty()) Log(no_control.c_str());
+  if (!no_control.empty()) journal_.Write(Event::kNoControl, no_control);
+}
+
+// A board whose disk is full, read-only or gone must still move a face.
+void Application::PrepareStorage() {
+  const std::filesystem::path& folder = config_.neutral.folder;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error && ::access(folder.c_str(), W_OK | X_OK) != 0) {
+    error.assign(errno, std::generic_category());
+  }
+  if (error) {
+    storage_problem_ = folder.string() + ": " + error.message();
+    journal_.Write(Event::kStorageUnwritable,
+                   "neither a neutral nor an emergency stop will outlast a loss of power: " +
+                       storage_problem_);
+  }
+  if (latch_.Engaged()) {
+    journal_.Write(
+        Event::kStopRemembered,
+        "an emergency stop from before the start still holds; `facewire release` ends it",
+        latch_.reason());
+  }
 }
 
 // Why there is no control socket although there should be one; "" when all is well. A puppet that
@@ -272,70 +305,76 @@ std::string Application::OpenControl() {
 // A neutral that cannot be used must not keep a board from starting: the performer is there to give
 // another one.
 void Application::TakeStoredNeutral() {
-  std::error_code ignored;
-  if (std::filesystem::exists(NeutralFile(), ignored)) {
+  std::error_code error;
+  if (std::filesystem::exists(NeutralFile(), error) || error) {
+    std::string why = "cannot be used";
     try {
       if (service_->UseNeutral(LoadNeutral(NeutralFile()))) return;
-      Log((NeutralFile().string() + ": cannot be used; taking a new neutral").c_str());
+      why = NeutralFile().string() + ": " + why;
     } catch (const BadInput& e) {
-      Log((std::string(e.what()) + "; taking a new neutral").c_str());
+      why = e.what();
     }
+    journal_.Write(Event::kNeutralUnusable, why + "; taking a new neutral");
   }
   if (config_.neutral.auto_s > 0) service_->TakeNeutralByItself();
 }
 
-bool Application::KeepNeutral(const retarget::Neutral& neutral) const {
+std::string Application::KeepNeutral(const retarget::Neutral& neutral) const {
   try {
     std::filesystem::create_directories(config_.neutral.folder);
     SaveNeutral(NeutralFile(), neutral);
-    return true;
+    journal_.Write(Event::kNeutralKept, "the performer's neutral is kept");
+    return "";
   } catch (const std::exception& e) {
-    Log(e.what());
-    return false;
+    journal_.Write(Event::kNeutralNotKept,
+                   std::string("the neutral is kept only until the restart: ") + e.what());
+    return e.what();
   }
 }
 
 // The program.
 void Application::Run(Requests& requests, Duration limit) {
   supervisor_.Ready();
-  began_ = next_beat_ = next_log_ = clock_.Now();
+  journal_.Write(Event::kReady, "ready");
+  began_ = clock_.Now();
   const Time media_began = service_->now();
   while (service_->Tick()) {
-    Supervise();
+    observer_.Look(*service_, clock_.Now());
+    RunErrands();
     if (requests.quit.load() > 0) service_->Quit();
     if (requests.quit.load() > 1) break;
     if (limit > Duration::zero() && service_->now() - media_began >= limit) service_->Quit();
-    if (requests.reload.exchange(false)) Reload();
+    if (requests.reload.exchange(false)) (void)Reload();
   }
   supervisor_.Stopping();
 }
 
-void Application::Supervise() {
-  const Time now = clock_.Now();
-  if (supervisor_.watchdog_interval() > Duration::zero() && now >= next_beat_) {
-    next_beat_ = now + supervisor_.watchdog_interval();
-    if (!service_->Hopeless()) supervisor_.Alive();
+// What programs on the board have asked for and the tick cannot answer.
+void Application::RunErrands() {
+  while (const auto errand = service_->NextErrand()) {
+    if (errand->command.code == wire::CommandCode::kReload) {
+      const std::string problems = Reload();
+      service_->Answer(*errand,
+                       problems.empty() ? wire::CommandResult::kOk : wire::CommandResult::kFailed,
+                       0, problems);
+      continue;
+    }
+    const StatusReport report{.service = *service_,
+                              .line = *line_,
+                              .camera_address = camera_address_,
+                              .line_address = line_address_,
+                              .state_folder = config_.neutral.folder.native(),
+                              .storage_problem = storage_problem_,
+                              .stop_problem = latch_.reason(),
+                              .searching_after = observer_.searching_after()};
+    service_->Answer(*errand, wire::CommandResult::kOk, 0, ToJson(report).data());
   }
-  if (now < next_log_) return;
-  next_log_ = now + seconds(1);
-  LogStateChange();
 }
 
-void Application::LogStateChange() {
-  const wire::Status& status = service_->status();
-  std::array<char, 160> text;
-  const int size = std::snprintf(
-      text.data(), text.size(), "%s, %d.%d fps, latency %u ms, line %s", Name(service_->state()),
-      status.centi_fps / 100, status.centi_fps / 10 % 10,
-      static_cast<unsigned>(status.latency_p50_us / 1000), line_->connected() ? "up" : "gone");
-  supervisor_.Status({text.data(), static_cast<std::size_t>(size)});
-  if (service_->state() == logged_) return;
-  logged_ = service_->state();
-  Log(text.data());
-}
-
-// Between two ticks. Building may allocate; whatever goes wrong, the old character runs on.
-void Application::Reload() {
+// Between two ticks. Building may allocate; whatever goes wrong, the old character runs on. Answers
+// with every mistake on a line of its own.
+std::string Application::Reload() {
+  std::string problems;
   supervisor_.Reloading(clock_.Now());
   try {
     const Config fresh = LoadConfig(options_.config);
@@ -352,11 +391,15 @@ void Application::Reload() {
     config_.filter = fresh.filter;
     config_.character.rig = fresh.character.rig;
     config_.character.blend = fresh.character.blend;
-    Log("reloaded rig, blend, filter, rates and state times; other changes need a restart");
+    journal_.Write(Event::kReloaded,
+                   "reloaded rig, blend, filter, rates and state times; other changes need a "
+                   "restart");
   } catch (const std::exception& e) {
-    Log((std::string("not reloaded, running on as before: ") + e.what()).c_str());
+    problems = e.what();
+    journal_.Write(Event::kReloadProblem, "not reloaded, running on as before:\n" + problems);
   }
   supervisor_.Ready();
+  return problems;
 }
 
 std::string Application::Summary() const {
@@ -373,6 +416,7 @@ std::string Application::Summary() const {
                      std::to_string(profile_->mapping().signals().size()) + " signals") +
           "\n";
   text += "personal " + PersonalSummary() + "\n";
+  text += "gpio     " + GpioSummary(config_.gpio) + "\n";
   text += "host     " + (line_address_.empty() ? "none" : line_address_) + "\n";
   text += "control  " +
           (config_.control.socket.empty() ? "none" : config_.control.socket.string()) + "\n";
@@ -426,6 +470,7 @@ RunReport Application::Report() const {
   report.frames = stats.frames;
   report.fps = report.seconds > 0 ? static_cast<double>(stats.frames) / report.seconds : 0;
   report.frames_dropped = stats.frames_dropped;
+  report.frames_damaged = stats.frames_damaged;
   report.faces = stats.faces;
   report.rejected = stats.rejected;
   report.losses = stats.losses;
@@ -437,6 +482,8 @@ RunReport Application::Report() const {
   report.poses_dropped = line.poses_dropped;
   report.line_errors = line.write_errors;
   report.line_bytes = line.bytes;
+  report.line_losses = line.hang_ups;
+  report.line_reopens = line.opens > 0 ? line.opens - 1 : 0;
   report.resident_bytes = ResidentBytes();
   report.footage_bytes = Memory().parts.back().bytes;
   return report;

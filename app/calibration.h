@@ -27,6 +27,8 @@ class Calibration {
   // Takes the first still second within kTryFor; fails at once when the face goes. False, with
   // nothing changed, while another request's runs; the same request again changes nothing.
   bool Begin(const Request& request, Time now) noexcept;
+  // Whether such a request is being worked on.
+  bool requested() const noexcept { return request_.has_value(); }
 
   static constexpr int kPatience = 10;
   static constexpr Duration kTryFor = std::chrono::seconds(10);

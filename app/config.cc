@@ -1,8 +1,14 @@
 #include "app/config.h"
 
+#include <map>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "app/toml_reader.h"
+#include "hal/gpiod/find_line.h"
 #include "hal/local/local_socket.h"
 
 namespace facewire::app {
@@ -40,6 +46,12 @@ void ReadCamera(TableReader camera, const std::filesystem::path& folder, CameraC
   camera.Integer("width_px", config.width_px, 64, 4096, "px");
   camera.Integer("height_px", config.height_px, 64, 4096, "px");
   camera.Integer("fps", config.fps, 1, 240, "Hz");
+  std::vector<std::pair<std::string_view, std::optional<hal::CameraFormat>>> formats = {
+      {"auto", std::nullopt}};
+  for (const hal::CameraFormat format : hal::kEveryCameraFormat) {
+    formats.emplace_back(hal::Name(format), format);
+  }
+  camera.Choice("format", config.format, formats);
   TableReader replay = camera.Table("replay");
   ReadPath(replay, "file", folder, config.replay.file);
   replay.Choice<Pace>("pace", config.replay.pace,
@@ -95,6 +107,7 @@ void ReadHost(TableReader host, const std::filesystem::path& folder, HostConfig&
   host.Integer("baud", config.baud, 1200, 4'000'000, "baud");
   host.Integer("write_budget_ms", config.write_budget_ms, 0, 20, "ms");
   host.Integer("min_rate_hz", config.min_rate_hz, 20, 240, "Hz");
+  host.Number("stuck_after_s", config.stuck_after_s, {0, 3600, "s"});
   host.Number("describe_every_s", config.describe_every_s, {0, 3600, "s"});
   host.Finish();
 }
@@ -107,6 +120,53 @@ void ReadControl(TableReader control, const std::filesystem::path& folder, Contr
                                   std::to_string(hal::local::kMaxPathLength) + " characters");
   }
   control.Finish();
+}
+
+using hal::gpiod::Bias;
+
+// `key`_line and `key`_polarity; for a contact `key`_bias, too.
+void ReadGpioLine(TableReader& gpio, const std::string& key, bool contact, const std::string& chip,
+                  GpioLineConfig& config) {
+  gpio.Text(key + "_line", config.line);
+  gpio.Choice<bool>(key + "_polarity", config.active_low,
+                    {{"active-low", true}, {"active-high", false}});
+  if (!config.line.empty() && chip.empty() && hal::gpiod::OffsetOf(config.line)) {
+    gpio.Problem(key + "_line", "line " + config.line +
+                                    " of which chip? Set gpio.chip; `facewire doctor` lists those "
+                                    "there are");
+  }
+  if (!contact) return;
+  gpio.Choice<Bias>(key + "_bias", config.bias,
+                    {{"pull-up", Bias::kPullUp},
+                     {"pull-down", Bias::kPullDown},
+                     {"off", Bias::kOff},
+                     {"as-is", Bias::kAsIs}});
+  // Pulled to the level at which the contact conducts, an open contact and a cut wire look closed.
+  if (config.bias == (config.active_low ? Bias::kPullDown : Bias::kPullUp)) {
+    gpio.Problem(key + "_bias", std::string("would make a cut wire look like a contact that ") +
+                                    "conducts; a contact that is " +
+                                    (config.active_low ? "active-low needs \"pull-up\""
+                                                       : "active-high needs \"pull-down\""));
+  }
+}
+
+void ReadGpio(TableReader gpio, GpioConfig& config) {
+  gpio.Text("chip", config.chip);
+  ReadGpioLine(gpio, "stop", true, config.chip, config.stop);
+  ReadGpioLine(gpio, "calibrate", true, config.chip, config.calibrate);
+  ReadGpioLine(gpio, "status_led", false, config.chip, config.status_led);
+  ReadGpioLine(gpio, "servo_power", false, config.chip, config.servo_power);
+  std::map<std::string, std::string> users;  // by line
+  for (const auto& [key, line] : {std::pair("stop_line", &config.stop.line),
+                                  {"calibrate_line", &config.calibrate.line},
+                                  {"status_led_line", &config.status_led.line},
+                                  {"servo_power_line", &config.servo_power.line}}) {
+    if (line->empty()) continue;
+    const auto [first, alone] = users.emplace(*line, key);
+    if (alone) continue;
+    gpio.Problem(key, "\"" + *line + "\" is gpio." + first->second + " already; give each its own");
+  }
+  gpio.Finish();
 }
 
 void ReadStates(TableReader states, state::StateConfig& config) {
@@ -148,6 +208,7 @@ Config LoadConfig(const std::filesystem::path& file) {
   neutral.Finish();
   ReadHost(top.Table("host"), folder, config.host);
   ReadControl(top.Table("control"), folder, config.control);
+  ReadGpio(top.Table("gpio"), config.gpio);
   ReadStates(top.Table("states"), config.states);
   top.Finish();
   problems.ThrowIfAny();

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/base/time.h"
@@ -11,6 +12,8 @@
 #include "core/pose/pose_estimator.h"
 #include "core/state/state_machine.h"
 #include "core/track/tracker.h"
+#include "hal/camera_format.h"
+#include "hal/gpiod/library.h"
 
 // facewire.toml as plain structs. The defaults here are the defaults of the file;
 // app/share/facewire.toml lists every key with them. Paths are absolute after LoadConfig.
@@ -30,6 +33,8 @@ struct CameraConfig {
   int width_px = 640;
   int height_px = 480;
   int fps = 30;
+  // In what form it sends its pictures; nullopt: whichever reaches size and rate at the least cost.
+  std::optional<hal::CameraFormat> format;
   ReplayConfig replay;
 };
 
@@ -58,6 +63,9 @@ struct HostConfig {
   int baud = 115200;          // of a serial line
   int write_budget_ms = 5;    // a tick waits so long at most for the line to take bytes
   int min_rate_hz = 20;       // poses a second even when the camera is silent
+  // An open line that takes nothing for so long is stuck, which the watchdog ends by a restart. 0:
+  // never (a host that may be off, at a USB gadget's other end).
+  float stuck_after_s = 10;
   float describe_every_s =
       5;  // the rig's description again, for hosts that join later; 0 = on request
 };
@@ -65,6 +73,20 @@ struct HostConfig {
 struct ControlConfig {
   // A local socket on which the board's own programs give commands; empty: none.
   std::filesystem::path socket = "/run/facewire/control";
+};
+
+struct GpioLineConfig {
+  std::string line;         // an offset on the chip, or the line's name; empty: none
+  bool active_low = false;  // a contact conducts, an LED is lit, servos have power at the low level
+  hal::gpiod::Bias bias = hal::gpiod::Bias::kAsIs;  // of an input
+};
+
+struct GpioConfig {
+  std::string chip;  // label, name or path; empty: every line has a name of its own
+  GpioLineConfig stop{.line = "", .active_low = true, .bias = hal::gpiod::Bias::kPullUp};
+  GpioLineConfig calibrate{.line = "", .active_low = true, .bias = hal::gpiod::Bias::kPullUp};
+  GpioLineConfig status_led;
+  GpioLineConfig servo_power;
 };
 
 struct Config {
@@ -76,6 +98,7 @@ struct Config {
   NeutralConfig neutral;
   HostConfig host;
   ControlConfig control;
+  GpioConfig gpio;
   state::StateConfig states;
 };
 

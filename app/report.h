@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/time.h"
+
 namespace facewire::app {
 
 // What a service holds, part by part.
@@ -28,6 +30,7 @@ struct RunReport {
   std::uint64_t frames = 0;
   double fps = 0;
   std::uint64_t frames_dropped = 0;
+  std::uint64_t frames_damaged = 0;  // of those, broken ones
   std::uint64_t faces = 0;
   std::uint64_t rejected = 0;
   std::uint64_t losses = 0;
@@ -39,6 +42,8 @@ struct RunReport {
   std::uint64_t poses_dropped = 0;
   std::uint64_t line_errors = 0;
   std::uint64_t line_bytes = 0;
+  std::uint64_t line_losses = 0;   // times that the open line was lost
+  std::uint64_t line_reopens = 0;  // times that it was opened again
   std::size_t resident_bytes = 0;  // of the whole process, now
   std::size_t footage_bytes = 0;   // of that, the recording decoded ahead
 };
@@ -48,8 +53,11 @@ std::string Summary(const RunReport& report);
 // half-written is left.
 void WriteJson(const std::filesystem::path& file, const RunReport& report);
 
-// Of this process; 0 when the system does not tell.
-std::size_t ResidentBytes();
+// Of this process; 0 when the system does not tell. Allocate nothing.
+std::size_t ResidentBytes() noexcept;
+std::size_t ThreadCount() noexcept;
+// Since the process was started, which is before its first instruction: the loader's time counts.
+Duration ProcessAge() noexcept;
 
 }  // namespace facewire::app
 

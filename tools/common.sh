@@ -1,5 +1,6 @@
 # Shared by the scripts in this folder; sourced, not run. Sets `root` and moves there.
 
+script_file=$(realpath "$0")
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 script=$(basename "$0")
@@ -10,6 +11,12 @@ say() { printf '%s: %s\n' "$script" "$*"; }
 die() {
   printf '%s: %s\n' "$script" "$*" >&2
   exit 1
+}
+
+# The lines under "usage" at the head of the script.
+usage() {
+  sed -n '2,/^[^#]/{/^# usage/,/^[^#]/{s/^# \{0,1\}//p}}' "$script_file" >&2
+  exit 2
 }
 
 # build PRESET TARGET...: configures and builds; a compiler cache is used when there is one.
@@ -32,4 +39,23 @@ build() {
 log() {
   mkdir -p "$root/build/log"
   printf '%s/build/log/%s.log' "$root" "$1"
+}
+
+# packages RELEASE: the names of tools/packages.txt that this release of Debian needs, by its code name.
+packages() {
+  awk -v release="$1" '
+    { sub(/#.*/, "") }
+    NF == 0 { next }
+    NF == 1 { print $1; next }
+    { for (i = 2; i <= NF; ++i) if ($i == release) print $1 }' "$root/tools/packages.txt"
+}
+
+# debian_sources RELEASE: this machine's own sources of Debian packages, for another release, as lines for apt.
+debian_sources() {
+  local sources
+  sources=$(apt-get indextargets --format '$(SITE) $(CODENAME)' \
+              'Created-By: Packages' 'Origin: Debian' 'Component: main' |
+    sed -E "s/^(\S+) [a-z]+(.*)/deb \1 $1\2 main/" | sort -u)
+  [ -n "$sources" ] || die "apt knows no source of Debian packages yet: run apt-get update, or name a mirror with --mirror"
+  printf '%s\n' "$sources"
 }

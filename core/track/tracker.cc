@@ -13,8 +13,8 @@ constexpr std::size_t kAlignment = 64;
 
 // Measured: see README.md, "Memory". Processors differ in how they pack weights, so both figures
 // have some room.
-constexpr std::size_t kMeshBytes = std::size_t{15} << 20;
-constexpr std::size_t kAttentionBytes = std::size_t{20} << 20;
+constexpr std::size_t kMeshBytes = std::size_t{16} << 20;
+constexpr std::size_t kAttentionBytes = std::size_t{21} << 20;
 
 constexpr std::size_t BlockBytes(Model model) noexcept {
   return model == Model::kAttention ? kAttentionBytes : kMeshBytes;

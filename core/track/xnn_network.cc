@@ -33,6 +33,46 @@ std::array<std::size_t, 4> Dimensions(const Shape& shape) noexcept {
           static_cast<std::size_t>(shape[2]), static_cast<std::size_t>(shape[3])};
 }
 
+// XNNPACK has no version to ask, but the header that brought what is new here also brought this
+// macro.
+#ifdef XNN_DEPRECATED
+xnn_status DefineAdd(xnn_subgraph_t graph, std::uint32_t a, std::uint32_t b,
+                     std::uint32_t out) noexcept {
+  return xnn_define_binary(graph, xnn_binary_add, nullptr, a, b, out, 0);
+}
+xnn_status DefineRelu(xnn_subgraph_t graph, std::uint32_t in, std::uint32_t out) noexcept {
+  const xnn_unary_params params = {.clamp = {.min = 0.0F, .max = kInfinity}};
+  return xnn_define_unary(graph, xnn_unary_clamp, &params, in, out, 0);
+}
+xnn_status DefinePrelu(xnn_subgraph_t graph, std::uint32_t in, std::uint32_t slopes,
+                       std::uint32_t out) noexcept {
+  return xnn_define_binary(graph, xnn_binary_prelu, nullptr, in, slopes, out, 0);
+}
+// Plans the memory and fixes the buffers; xnn_setup_runtime would not tell when the memory is too
+// small.
+xnn_status SetUp(xnn_runtime_t runtime, std::span<const xnn_external_value> bindings) noexcept {
+  const xnn_status planned = xnn_reshape_runtime(runtime);
+  return planned != xnn_status_success
+             ? planned
+             : xnn_setup_runtime_v2(runtime, bindings.size(), bindings.data());
+}
+#else
+xnn_status DefineAdd(xnn_subgraph_t graph, std::uint32_t a, std::uint32_t b,
+                     std::uint32_t out) noexcept {
+  return xnn_define_add2(graph, -kInfinity, kInfinity, a, b, out, 0);
+}
+xnn_status DefineRelu(xnn_subgraph_t graph, std::uint32_t in, std::uint32_t out) noexcept {
+  return xnn_define_clamp(graph, 0.0F, kInfinity, in, out, 0);
+}
+xnn_status DefinePrelu(xnn_subgraph_t graph, std::uint32_t in, std::uint32_t slopes,
+                       std::uint32_t out) noexcept {
+  return xnn_define_prelu(graph, in, slopes, out, 0);
+}
+xnn_status SetUp(xnn_runtime_t runtime, std::span<const xnn_external_value> bindings) noexcept {
+  return xnn_setup_runtime(runtime, bindings.size(), bindings.data());
+}
+#endif
+
 // Translates part of a model into an XNNPACK subgraph. All its memory is temporary.
 class GraphBuilder {
  public:
@@ -123,9 +163,13 @@ class GraphBuilder {
                                            XNN_INVALID_VALUE_ID, 0, &values_[tensor]));
   }
 
+  // Filters and biases are packed into the runtime; slopes are read where they are at every run (by
+  // older versions of XNNPACK they are packed, too).
+  enum class Constant { kFilter, kBias, kSlopes };
+
   // Floats of a constant: stored as such, or as halves behind a DEQUANTIZE. nullptr with `error`
   // set when it is neither, or memory is used up.
-  const float* ConstantFloats(int index, Errc& error) noexcept {
+  const float* ConstantFloats(int index, Constant kind, Errc& error) noexcept {
     Tensor t = model_.tensor(index);
     const Shape shape = t.shape;
     if (t.data.empty()) {
@@ -141,12 +185,14 @@ class GraphBuilder {
     error = Errc::kCorrupt;
     if (t.shape != shape || t.data.empty()) return nullptr;
     if (t.type != ElementType::kFloat32 && t.type != ElementType::kFloat16) return nullptr;
-    auto* floats =
-        static_cast<float*>(memory_.AllocateTemporary(count * sizeof(float), kCacheLine));
+    const std::size_t bytes = count * sizeof(float);
+    auto* floats = static_cast<float*>(kind == Constant::kSlopes
+                                           ? memory_.AllocatePermanent(bytes, kCacheLine)
+                                           : memory_.AllocateTemporary(bytes, kCacheLine));
     error = Errc::kFull;
     if (floats == nullptr) return nullptr;
     if (t.type == ElementType::kFloat32) {
-      std::memcpy(floats, t.data.data(), count * sizeof(float));
+      std::memcpy(floats, t.data.data(), bytes);
       return floats;
     }
     for (std::size_t i = 0; i < count; ++i) {
@@ -157,13 +203,14 @@ class GraphBuilder {
     return floats;
   }
 
-  // A weight, bias or slope; a vector for XNNPACK has one dimension.
-  Result<> DefineConstant(int tensor, bool vector) noexcept {
+  // To XNNPACK a vector has one dimension.
+  Result<> DefineConstant(int tensor, Constant kind) noexcept {
     if (constant_[tensor]) return {};
     if (IsDefined(tensor)) return Errc::kCorrupt;
     constant_[tensor] = true;
     Errc error{};
-    const float* floats = ConstantFloats(tensor, error);
+    const float* floats = ConstantFloats(tensor, kind, error);
+    const bool vector = kind != Constant::kFilter;
     if (floats == nullptr) return error;
     const auto dimensions = Dimensions(model_.tensor(tensor).shape);
     return FromXnn(xnn_define_tensor_value(graph_, xnn_datatype_fp32, vector ? 1 : 4,
@@ -175,10 +222,11 @@ class GraphBuilder {
     switch (op.operation) {
       case Operation::kConv2d:
       case Operation::kDepthwiseConv2d:
-        if (auto defined = DefineConstant(op.inputs[1], false); !defined) return defined;
-        return DefineConstant(op.inputs[2], true);
+        if (auto defined = DefineConstant(op.inputs[1], Constant::kFilter); !defined)
+          return defined;
+        return DefineConstant(op.inputs[2], Constant::kBias);
       case Operation::kPrelu:
-        return DefineConstant(op.inputs[1], true);
+        return DefineConstant(op.inputs[1], Constant::kSlopes);
       default:
         return {};
     }
@@ -196,11 +244,11 @@ class GraphBuilder {
     const auto stride_w = static_cast<std::uint32_t>(op.stride_w);
     switch (op.operation) {
       case Operation::kAdd:
-        return xnn_define_add2(graph_, -kInfinity, kInfinity, in, values_[op.inputs[1]], out, 0);
+        return DefineAdd(graph_, in, values_[op.inputs[1]], out);
       case Operation::kRelu:
-        return xnn_define_clamp(graph_, 0.0F, kInfinity, in, out, 0);
+        return DefineRelu(graph_, in, out);
       case Operation::kPrelu:
-        return xnn_define_prelu(graph_, in, values_[op.inputs[1]], out, 0);
+        return DefinePrelu(graph_, in, values_[op.inputs[1]], out);
       case Operation::kMaxPool2d:
         return xnn_define_max_pooling_2d(graph_, 0, 0, 0, 0,
                                          static_cast<std::uint32_t>(op.filter_h),
@@ -278,7 +326,7 @@ Result<> XnnNetwork::Build(const TfliteModel& model, std::span<const int> inputs
   xnn_runtime_t runtime = nullptr;
   auto created = FromXnn(xnn_create_runtime_v2(builder.graph(), nullptr, 0, &runtime));
   if (!created) return created;
-  auto bound = FromXnn(xnn_setup_runtime(runtime, externals, bindings.data()));
+  auto bound = FromXnn(SetUp(runtime, std::span(bindings).first(externals)));
   if (!bound) return bound;
   memory.ReleaseTemporary();
   inputs_ = inputs.size();

@@ -149,36 +149,39 @@ Command ReadCommand(Reader& r) noexcept {
   return m;
 }
 
+Text ReadText(Reader& r) noexcept {
+  Text m;
+  m.id = r.Integer<std::uint16_t>();
+  r.Require(m.text.try_resize(r.Integer<std::uint16_t>()));
+  for (char& c : m.text) c = static_cast<char>(r.Integer<std::uint8_t>());
+  return m;
+}
+
 Result<Message> ReadPayload(std::uint8_t type, std::span<const byte> payload) noexcept {
   Reader r(payload);
-  Message message;
+  const auto checked = [&r](const auto& message) -> Result<Message> {
+    if (!r.ok()) return Errc::kInvalidArgument;
+    return Message(message);
+  };
   switch (static_cast<MessageType>(type)) {
     case MessageType::kRigHeader:
-      message = ReadRigHeader(r);
-      break;
+      return checked(ReadRigHeader(r));
     case MessageType::kBone:
-      message = ReadBone(r);
-      break;
+      return checked(ReadBone(r));
     case MessageType::kChannel:
-      message = ReadChannel(r);
-      break;
+      return checked(ReadChannel(r));
     case MessageType::kPose:
-      message = ReadPose(r);
-      break;
+      return checked(ReadPose(r));
     case MessageType::kStatus:
-      message = ReadStatus(r);
-      break;
+      return checked(ReadStatus(r));
     case MessageType::kAcknowledgement:
-      message = ReadAcknowledgement(r);
-      break;
+      return checked(ReadAcknowledgement(r));
     case MessageType::kCommand:
-      message = ReadCommand(r);
-      break;
-    default:
-      return Errc::kUnsupported;
+      return checked(ReadCommand(r));
+    case MessageType::kText:
+      return checked(ReadText(r));
   }
-  if (!r.ok()) return Errc::kInvalidArgument;
-  return message;
+  return Errc::kUnsupported;
 }
 
 }  // namespace

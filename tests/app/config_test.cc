@@ -46,6 +46,9 @@ TEST(LoadConfig, SaysWhatIsWrongWhereAndWhatWouldBeRight) {
       {"[camera]\ndevice = \"usb\"\n",
        "F:2:10: camera.device: \"usb\" is not understood; expected \"v4l2:/dev/videoN\", "
        "\"libcamera:N\" or \"replay\""},
+      {"[camera]\nformat = \"h264\"\n",
+       "F:2:10: camera.format: \"h264\" is none of \"auto\", \"yuyv\", \"nv12\", "
+       "\"i420\", \"rgb24\", \"bgr24\", \"mjpeg\", \"grey\""},
       {"[camera]\ndevice = \"replay\"\n",
        "F:2:10: camera.device: is \"replay\" but camera.replay.file names no video"},
       {"[camera.replay]\nloop = \"ping-pong\"\n",
@@ -73,6 +76,50 @@ TEST(LoadConfig, RefusesAPathThatIsTooLongForASocket) {
   EXPECT_EQ(Complaint("[control]\nsocket = \"" + longest + "s\"\n"),
             "F:2:10: control.socket: the path " + longest +
                 "s is too long for a socket; at most 107 characters");
+}
+
+TEST(LoadConfig, ReadsTheLinesOfAnExampleBoard) {
+  const Scratch scratch;
+  const GpioConfig gpio =
+      LoadConfig(scratch.Write("f.toml",
+                               "[gpio]\nchip = \"pinctrl-rp1\"\nstop_line = \"17\"\n"
+                               "calibrate_line = \"GPIO27\"\ncalibrate_polarity = "
+                               "\"active-high\"\ncalibrate_bias = \"pull-down\"\n"
+                               "status_led_line = \"22\"\nservo_power_line = \"23\"\n"
+                               "servo_power_polarity = \"active-low\"\n"))
+          .gpio;
+  EXPECT_EQ(gpio.chip, "pinctrl-rp1");
+  EXPECT_EQ(gpio.stop.line, "17");
+  EXPECT_TRUE(gpio.stop.active_low);
+  EXPECT_EQ(gpio.stop.bias, hal::gpiod::Bias::kPullUp);
+  EXPECT_EQ(gpio.calibrate.line, "GPIO27");
+  EXPECT_FALSE(gpio.calibrate.active_low);
+  EXPECT_EQ(gpio.calibrate.bias, hal::gpiod::Bias::kPullDown);
+  EXPECT_FALSE(gpio.status_led.active_low);
+  EXPECT_TRUE(gpio.servo_power.active_low);
+}
+
+TEST(LoadConfig, RefusesGpioLinesThatCannotBeMeant) {
+  EXPECT_EQ(Complaint("[gpio]\nstop_line = \"17\"\nstatus_led_line = \"LED\"\n"),
+            "F:2:13: gpio.stop_line: line 17 of which chip? Set gpio.chip; `facewire doctor` lists "
+            "those there are");
+  EXPECT_EQ(Complaint("[gpio]\nchip = \"c\"\nstop_line = \"1\"\nservo_power_line = \"1\"\n"),
+            "F:4:20: gpio.servo_power_line: \"1\" is gpio.stop_line already; give each its own");
+  EXPECT_EQ(Complaint("[gpio]\nstop_polarity = \"low\"\nstop_line = 17\n"),
+            "F:2:17: gpio.stop_polarity: \"low\" is none of \"active-low\", \"active-high\"\n"
+            "F:3:13: gpio.stop_line: is a number; expected a text");
+}
+
+// The most dangerous mistake: the stop seems to work, until its wire breaks.
+TEST(LoadConfig, RefusesABiasThatWouldHideACutWire) {
+  EXPECT_EQ(Complaint("[gpio]\nstop_bias = \"pull-down\"\n"),
+            "F:2:13: gpio.stop_bias: would make a cut wire look like a contact that conducts; a "
+            "contact that is active-low needs \"pull-up\"");
+  EXPECT_EQ(Complaint("[gpio]\nstop_polarity = \"active-high\"\n"),
+            "F:1:1: gpio.stop_bias: would make a cut wire look like a contact that conducts; a "
+            "contact that is active-high needs \"pull-down\"");
+  EXPECT_EQ(Complaint("[gpio]\nstop_polarity = \"active-high\"\nstop_bias = \"pull-down\"\n"), "");
+  EXPECT_EQ(Complaint("[gpio]\nstop_polarity = \"active-high\"\nstop_bias = \"off\"\n"), "");
 }
 
 TEST(LoadConfig, ReportsEveryProblemAtOnceInTheOrderOfTheFile) {
@@ -117,6 +164,18 @@ TEST(LoadConfig, AcceptsAnEmptyFile) {
   EXPECT_EQ(config.camera.fps, 30);
 }
 
+TEST(LoadConfig, TheFormatOfTheCameraIsFoundOrNamed) {
+  const Scratch scratch;
+  const auto format = [&](const std::string& name) {
+    return LoadConfig(scratch.Write("f.toml", "[camera]\nformat = \"" + name + "\"\n"))
+        .camera.format;
+  };
+  EXPECT_EQ(format("auto"), std::nullopt);
+  for (const hal::CameraFormat each : hal::kEveryCameraFormat) {
+    EXPECT_EQ(format(std::string(hal::Name(each))), each);
+  }
+}
+
 // Two configurations are equal when the reader, asked for every key, makes the same of them.
 TEST(ExampleConfig, ListsEveryKeyWithItsDefault) {
   const std::filesystem::path example =
@@ -128,6 +187,7 @@ TEST(ExampleConfig, ListsEveryKeyWithItsDefault) {
   EXPECT_EQ(read.camera.width_px, defaults.camera.width_px);
   EXPECT_EQ(read.camera.height_px, defaults.camera.height_px);
   EXPECT_EQ(read.camera.fps, defaults.camera.fps);
+  EXPECT_EQ(read.camera.format, defaults.camera.format);
   EXPECT_EQ(read.camera.replay.file, defaults.camera.replay.file);
   EXPECT_EQ(read.camera.replay.pace, defaults.camera.replay.pace);
   EXPECT_EQ(read.camera.replay.loop, defaults.camera.replay.loop);
@@ -157,6 +217,13 @@ TEST(ExampleConfig, ListsEveryKeyWithItsDefault) {
   EXPECT_EQ(read.host.min_rate_hz, defaults.host.min_rate_hz);
   EXPECT_EQ(read.host.describe_every_s, defaults.host.describe_every_s);
   EXPECT_EQ(read.control.socket, defaults.control.socket);
+  EXPECT_EQ(read.gpio.chip, defaults.gpio.chip);
+  for (const auto line : {&GpioConfig::stop, &GpioConfig::calibrate, &GpioConfig::status_led,
+                          &GpioConfig::servo_power}) {
+    EXPECT_EQ((read.gpio.*line).line, (defaults.gpio.*line).line);
+    EXPECT_EQ((read.gpio.*line).active_low, (defaults.gpio.*line).active_low);
+    EXPECT_EQ((read.gpio.*line).bias, (defaults.gpio.*line).bias);
+  }
   EXPECT_EQ(read.states.start_ramp, defaults.states.start_ramp);
   EXPECT_EQ(read.states.acquire, defaults.states.acquire);
   EXPECT_EQ(read.states.hold, defaults.states.hold);
@@ -173,7 +240,7 @@ TEST(ExampleConfig, OmitsNoKeyThatTheReaderKnows) {
       ParseTomlFile(std::filesystem::path(FACEWIRE_SOURCE_DIR) / "app/share/facewire.toml");
   for (const char* path :
        {"", "camera", "camera.replay", "tracker", "filter", "filter.eyes", "filter.mouth",
-        "filter.rest", "pose", "character", "neutral", "host", "control", "states"}) {
+        "filter.rest", "pose", "character", "neutral", "host", "control", "gpio", "states"}) {
     const std::string header = *path == 0 ? "" : "[" + std::string(path) + "]\n";
     const std::string what = Complaint(header + "qqqqqqqqqqqqqqqqqqqq = 1\n");
     const std::size_t known = what.find("known: ");

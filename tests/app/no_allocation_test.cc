@@ -1,7 +1,7 @@
 // The promise of the design: after start the service takes nothing from the heap and gives nothing
 // back. The whole service runs here as it runs in the demo: real networks, the shipped profile and
-// rig, looped footage in memory, a pseudo-terminal with somebody reading at its other end, and
-// programs that come and go at the control socket.
+// rig, looped footage in memory, a pseudo-terminal with somebody reading at its other end, the
+// board's (mock) lines, and programs that come and go at the control socket.
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,9 @@ class Context {
                       "/app/share/otto.toml\"\nprofile = \"" FACEWIRE_SOURCE_DIR
                       "/app/share/average.profile\"\n[neutral]\nfolder = \"state\"\n"
                       "[host]\nline = \"pty:line\"\ndescribe_every_s = 1.0\n"
-                      "[control]\nsocket = \"control\"\n");
+                      "[control]\nsocket = \"control\"\n"
+                      "[gpio]\nstop_line = \"stop\"\ncalibrate_line = \"button\"\n"
+                      "status_led_line = \"led\"\nservo_power_line = \"power\"\n");
     application.emplace(ApplicationOptions{.config = scratch / "facewire.toml", .fake = true},
                         clock);
     application->Open();

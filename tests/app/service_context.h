@@ -6,6 +6,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/service.h"
@@ -94,21 +95,25 @@ class ServiceContext {
   void Begin() {
     service.emplace(
         config,
-        ServiceParts{.camera = camera,
-                     .line = line,
-                     .clock = clock,
-                     .follower = follower,
-                     .capture = capture,
-                     .control = &control,
-                     .stop = &stop,
-                     .calibrate = &button,
-                     .keep_neutral =
-                         [this](const retarget::Neutral&) {
-                           ++kept;
-                           return keeps;
-                         },
-                     .log_answer =
-                         [this](const wire::Acknowledgement& answer) { logged.push_back(answer); }},
+        ServiceParts{
+            .camera = camera,
+            .line = line,
+            .clock = clock,
+            .follower = follower,
+            .capture = capture,
+            .control = &control,
+            .stop = &stop,
+            .calibrate = &button,
+            .status_led = &led,
+            .servo_power = &power,
+            .keep_neutral =
+                [this](const retarget::Neutral&) {
+                  ++kept;
+                  return why_not_kept;
+                },
+            .latch = &latch,
+            .log_answer = [this](const wire::Acknowledgement& answer) { logged.push_back(answer); },
+            .log_panel = [this](const char* text) { said.emplace_back(text); }},
         character);
   }
   void Configure(Character& which, const Rig& rig) {
@@ -159,6 +164,8 @@ class ServiceContext {
   hal::fake::FakeSerialPort port{clock};
   hal::fake::FakeGpioInput stop;
   hal::fake::FakeGpioInput button;
+  hal::fake::FakeGpioOutput led{clock};
+  hal::fake::FakeGpioOutput power{clock};
   ScriptedFollower follower;
   Character character;
   std::vector<std::vector<std::byte>> memories;
@@ -170,9 +177,11 @@ class ServiceContext {
   std::optional<Service> service;
   bool alive = true;
   int kept = 0;
-  bool keeps = true;
+  std::string why_not_kept;
+  StopLatch latch{{}};               // remembers nothing, unless a test gives another
   retarget::ExampleMapping profile;  // not used before GivePersonalProfile
   std::vector<wire::Acknowledgement> logged;
+  std::vector<std::string> said;  // of the panel
 
   // The host's side.
   wire::Encoder host_encoder;

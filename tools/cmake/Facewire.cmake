@@ -4,6 +4,14 @@ option(FACEWIRE_BUILD_TESTS "Build tests and benchmarks" ON)
 set(FACEWIRE_SANITIZE "" CACHE STRING "Sanitizers for everything, such as address,undefined or thread")
 set(FACEWIRE_ASSETS "${PROJECT_SOURCE_DIR}/.assets" CACHE PATH
     "Where tools/setup unpacked the networks and the test footage")
+# A program for another processor runs on an emulated one.
+if(CMAKE_CROSSCOMPILING)
+  set(FACEWIRE_TEST_TIMEOUT_S 7200)
+else()
+  set(FACEWIRE_TEST_TIMEOUT_S 600)
+endif()
+
+include(GNUInstallDirs)
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -19,6 +27,13 @@ if(FACEWIRE_SANITIZE)
   add_link_options(-fsanitize=${FACEWIRE_SANITIZE})
   # GCC 12 finds std::regex and std::function uninitialised in instrumented code; they are not.
   add_compile_options(-Wno-maybe-uninitialized)
+else()
+  # What Debian builds its own programs with, in every preset: what is tested is what is installed. The sanitizers
+  # see more than these do, and get in each other's way.
+  include(CheckPIESupported)
+  check_pie_supported()
+  add_compile_options(-fstack-protector-strong -D_FORTIFY_SOURCE=2)
+  add_link_options(-Wl,-z,relro,-z,now)
 endif()
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
   # GCC 12 at -O3 sees overlapping copies inside std::string (its bug 105651).
@@ -63,7 +78,7 @@ function(facewire_test name)
                              FACEWIRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
   add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
-  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600)
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${FACEWIRE_TEST_TIMEOUT_S})
 endfunction()
 
 # facewire_benchmark(NAME SOURCES ... [DEPENDS ...]): one Google Benchmark executable, run by hand.
@@ -74,4 +89,15 @@ function(facewire_benchmark name)
   target_compile_definitions(${name} PRIVATE FACEWIRE_ASSETS="${FACEWIRE_ASSETS}"
                              FACEWIRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} benchmark::benchmark_main)
+endfunction()
+
+# facewire_install_compressed(FILE NAME FOLDER): as FOLDER/NAME.gz, the way manual pages and changelogs are kept;
+# the same bytes every time. Target documents makes all of them.
+add_custom_target(documents ALL)
+function(facewire_install_compressed file name folder)
+  set(compressed "${CMAKE_CURRENT_BINARY_DIR}/${name}.gz")
+  add_custom_command(OUTPUT "${compressed}" COMMAND gzip -9nc "${file}" > "${compressed}" DEPENDS "${file}" VERBATIM)
+  add_custom_target(compress_${name} DEPENDS "${compressed}")
+  add_dependencies(documents compress_${name})
+  install(FILES "${compressed}" DESTINATION "${folder}")
 endfunction()

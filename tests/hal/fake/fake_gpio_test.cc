@@ -14,10 +14,21 @@ TEST(FakeGpioInput, GivesTheLevelThatIsHeldAndTheFaultThatIsSet) {
   EXPECT_EQ(line.Get(), false);
   line.Hold(true);
   EXPECT_EQ(line.Get(), true);
-  line.Break(Errc::kDisconnected);
-  EXPECT_EQ(line.Get().error(), Errc::kDisconnected);
+  line.Break(Errc::kIo);
+  EXPECT_EQ(line.Get().error(), Errc::kIo);
   line.Repair();
   EXPECT_EQ(line.Get(), true);
+}
+
+TEST(FakeGpioInput, ALostLineIsBackOnlyOnceItWasOpened) {
+  FakeGpioInput line;
+  line.Break(Errc::kDisconnected);
+  EXPECT_EQ(line.Open().error(), Errc::kDisconnected);
+  line.Repair();
+  EXPECT_EQ(line.Get().error(), Errc::kDisconnected);
+  EXPECT_TRUE(line.Open());
+  EXPECT_EQ(line.Get(), false);
+  EXPECT_EQ(line.opens(), 2);
 }
 
 TEST(FakeGpioOutput, RemembersChangesWithTheirTimesAndNothingElse) {

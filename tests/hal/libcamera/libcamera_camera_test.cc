@@ -276,12 +276,9 @@ TEST(LibcameraLibrary, ACameraThatIsNotThereIsNamedInOneLine) {
 }
 
 TEST(LibcameraLibrary, ListsWhatItHas) {
-  const Result<std::vector<ListedCamera>> cameras = ListCameras();
-  if (!cameras) {
-    EXPECT_EQ(cameras.error(), Errc::kPermission);
-    return;
+  for (const CameraInfo& camera : ListCameras()) {
+    EXPECT_EQ(camera.address.substr(0, 10), "libcamera:");
   }
-  for (const ListedCamera& camera : *cameras) EXPECT_FALSE(camera.id.empty());
 }
 
 }  // namespace

@@ -1,0 +1,77 @@
+"""A disk that is full or read-only, and a power cut while the performer's neutral is saved."""
+import collections
+import hashlib
+import subprocess
+
+from case import PATIENCE, StillFaceTest
+
+NEUTRAL = "/var/lib/facewire/performer.neutral"
+
+
+class Disks(StillFaceTest):
+    def neutral(self):
+        return self.agent.read(f"sha256sum {NEUTRAL}").split()[0]
+
+    def refused(self):
+        """What the journal says of a calibration that cannot be stored."""
+        journal = self.service.journal_mark()
+        answer = self.calibrate()
+        self.assertEqual(answer.code, 1, answer.out)
+        said = [line for line in self.service.journal(journal).splitlines() if NEUTRAL in line]
+        self.assertTrue(said, f"the journal names no file: {self.service.journal(journal)}")
+        return said[-1]
+
+    def test_01_calibrating_stores_the_neutral(self):
+        answer = self.calibrate()
+        self.assertEqual(answer.code, 0, answer.out)
+        self.figure(self.agent.read(f"stat -c '%s bytes, mode %a, of %U' {NEUTRAL}"))
+
+    def test_02_a_full_disk_is_told_and_the_old_neutral_stays(self):
+        before = self.neutral()
+        # Root may fill what is kept back for root, too.
+        self.agent.run("dd if=/dev/zero of=/var/full bs=1M; dd if=/dev/zero of=/var/fuller bs=512", PATIENCE)
+        try:
+            self.figure(self.refused())
+            self.assertEqual(self.neutral(), before)
+        finally:
+            self.agent.read("rm -f /var/full /var/fuller")
+        answer = self.calibrate()
+        self.assertEqual(answer.code, 0, answer.out)
+
+    def test_03_a_read_only_disk_is_told_and_a_board_with_one_starts(self):
+        self.agent.read("sync; mount -o remount,ro /var")
+        try:
+            self.figure(self.refused())
+            self.service.do("restart")
+            self.wait_for_tracking()
+        finally:
+            self.agent.read("mount -o remount,rw /var")
+
+    def test_04_a_power_cut_while_saving_leaves_the_old_or_the_new_neutral(self):
+        known = [self.neutral()]
+        calibrating = self.agent.start("facewire calibrate")
+        seen = []
+        for copy in self.machine.power_cuts("var", every_s=0.02):
+            seen.append(neutral_after_power_cut(copy))
+            if len(seen) % 20 == 0 and self.agent.ended(calibrating):
+                break
+        known.append(self.neutral())
+        self.assertNotEqual(known[0], known[1], "calibrating changed nothing")
+        count = collections.Counter(seen)
+        self.figure(f"{len(seen)} power cuts: {count[known[0]]} left the old one, {count[known[1]]} the new one")
+        self.assertLessEqual(set(seen), set(known))
+
+
+def neutral_after_power_cut(disk):
+    """SHA-256 of the neutral on a copy of the disk, after what a board's start does to such a disk."""
+    raw = disk.with_suffix(".raw")
+    subprocess.run(["qemu-img", "convert", "-O", "raw", disk, raw], check=True)
+    # 1: it had to play back the journal, which is what it is there for.
+    checked = subprocess.run(["e2fsck", "-fp", raw], capture_output=True, text=True)
+    if checked.returncode not in (0, 1):
+        raise AssertionError(f"the file system needs a person: {checked.stdout}{checked.stderr}")
+    file = NEUTRAL.removeprefix("/var")
+    data = subprocess.run(["debugfs", "-R", f"cat {file}", raw], capture_output=True, check=True).stdout
+    raw.unlink()
+    disk.unlink()
+    return hashlib.sha256(data).hexdigest()

@@ -1,0 +1,62 @@
+"""The emergency stop, the button, the lamp and the servos' power."""
+from case import PATIENCE, StillFaceTest
+from machine import wait_until
+from panel import Panel
+
+# A picture takes seconds here, and between two pictures nobody looks at the button.
+SHORT_PRESS_S, LONG_PRESS_S = 1.5, 12
+
+
+class Buttons(StillFaceTest):
+    def setUp(self):
+        super().setUp()
+        self.panel = Panel(self.agent)
+
+    def tearDown(self):
+        self.panel.close_estop()
+        if self.line.poses[-1].state == "stopped":
+            self.panel.press(LONG_PRESS_S)
+        self.wait_for_tracking()
+
+    def test_01_servos_have_power_while_all_is_well(self):
+        wait_until("the servos' power", lambda: self.panel.level("servo"), PATIENCE)
+
+    def test_02_a_short_press_calibrates(self):
+        journal = self.service.journal_mark()
+        self.panel.press(SHORT_PRESS_S)
+        said = self.service.wait_for_words("calibrat", PATIENCE, journal)
+        self.figure(said.strip().splitlines()[-1])
+
+    def test_03_an_open_estop_stops_all_motion_within_a_tick(self):
+        mark = self.line.mark()
+        opened = self.board_clock()
+        self.panel.open_estop()
+        stopped = self.line.wait_for_state("stopped", timeout=PATIENCE, since=mark)
+        before = [pose for pose in self.line.since(mark) if pose.sent_s > opened and pose.sequence < stopped.sequence]
+        self.figure(f"Stopped {1000 * (stopped.sent_s - opened):.0f} ms later, after {len(before)} more poses")
+        # The pose in the making when the contact opened may still come; the next one is stopped.
+        self.assertLessEqual(len([pose for pose in before if pose.state != "stopped"]), 1)
+        later = self.line.mark()
+        self.line.wait_for("ten more poses", lambda pose: self.line.mark() >= later + 10, PATIENCE)
+        for pose in self.line.since(later):
+            self.assertEqual(pose.state, "stopped")
+            self.assertEqual(pose.steps, stopped.steps, "it moved")
+        self.assertFalse(self.panel.level("servo"))
+
+    def test_04_an_estop_outlives_its_contact_and_a_restart_until_it_is_released(self):
+        self.panel.open_estop()
+        self.line.wait_for_state("stopped", timeout=PATIENCE)
+        self.panel.close_estop()
+        self.service.do("restart")
+        mark = self.line.mark()
+        self.line.wait_for("ten poses", lambda pose: self.line.mark() >= mark + 10, PATIENCE, mark)
+        self.assertEqual({pose.state for pose in self.line.since(mark)}, {"stopped"})
+        self.panel.press(LONG_PRESS_S)
+        self.line.wait_for_state("starting", timeout=PATIENCE)
+
+    def test_05_a_cut_wire_is_an_open_estop(self):
+        self.panel.set("estop", True)  # only the pull-up is left
+        self.line.wait_for_state("stopped", timeout=PATIENCE)
+
+    def board_clock(self):
+        return float(self.agent.read("cut -d' ' -f1 /proc/uptime"))
