@@ -41,8 +41,8 @@ void ReadAddress(TableReader& table, std::string_view key, std::string_view form
 }
 
 void ReadCamera(TableReader camera, const std::filesystem::path& folder, CameraConfig& config) {
-  ReadAddress(camera, "device", R"("v4l2:/dev/videoN" or "replay")", {"v4l2:", "replay"},
-              config.device);
+  ReadAddress(camera, "device", R"("v4l2:/dev/videoN", "libcamera:N" or "replay")",
+              {"v4l2:", "libcamera:", "replay"}, config.device);
   camera.Integer("width_px", config.width_px, 64, 4096, "px");
   camera.Integer("height_px", config.height_px, 64, 4096, "px");
   camera.Integer("fps", config.fps, 1, 240, "Hz");

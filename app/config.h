@@ -29,7 +29,7 @@ struct ReplayConfig {
 };
 
 struct CameraConfig {
-  std::string device = "v4l2:/dev/video0";  // "v4l2:PATH" or "replay"
+  std::string device = "v4l2:/dev/video0";  // "v4l2:PATH", "libcamera:N" or "replay"
   int width_px = 640;
   int height_px = 480;
   int fps = 30;

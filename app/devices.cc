@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/error.h"
+#include "hal/libcamera/libcamera_camera.h"
 #include "hal/local/local_port.h"
 #include "hal/pty/pty_host.h"
 #include "hal/pty/pty_port.h"
@@ -121,9 +122,13 @@ void OpenSerialPort(hal::SerialPort& port, const std::string& name, int baud) {
 std::unique_ptr<hal::Camera> MakeCamera(const std::string& address, const CameraOptions& options,
                                         hal::Clock& clock) {
   if (address.starts_with(kLibcamera)) {
-    throw BadInput(address +
-                   ": this program has no libcamera; a camera that is /dev/videoN works as "
-                   "v4l2:/dev/videoN");
+    hal::libcamera::LibcameraConfig config;
+    config.camera = Without(address, kLibcamera);
+    config.width_px = options.width_px;
+    config.height_px = options.height_px;
+    config.fps = options.fps;
+    if (options.format) config.formats = {*options.format};
+    return std::make_unique<hal::libcamera::LibcameraCamera>(std::move(config), clock);
   }
   if (address.starts_with(kV4l2)) {
     hal::v4l2::V4l2Config config;

@@ -43,9 +43,9 @@ struct CameraOptions {
   std::size_t memory_bytes = 0;  // see hal::replay::ReplayConfig
 };
 
-// The camera by its address: "v4l2:/dev/videoN" or "v4l2:" and a link to it, "replay:FILE" or just
-// FILE (a video). Touches no device yet. BadInput for a camera that this program has no backend
-// for. `clock` is borrowed.
+// The camera by its address: "v4l2:/dev/videoN" or "v4l2:" and a link to it, "libcamera:N" or
+// "libcamera:ID", "replay:FILE" or just FILE (a video). Touches no device yet. BadInput for a
+// camera that this program has no backend for. `clock` is borrowed.
 std::unique_ptr<hal::Camera> MakeCamera(const std::string& address, const CameraOptions& options,
                                         hal::Clock& clock);
 

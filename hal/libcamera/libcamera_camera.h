@@ -56,8 +56,9 @@ class LibcameraCamera final : public Camera {
   FrameCount count_;
   int held_ = -1;  // the buffer that the caller has, or -1
   CameraCounts counts_;
-  std::string gone_;     // what Acquire says, without allocating, ...
-  std::string refusal_;  // and what Start says
+  std::string gone_;     // what Acquire says, without allocating: the camera has gone,
+  std::string damaged_;  // or its pictures are broken
+  std::string refusal_;  // what Start says
   std::string_view reason_;
 };
 

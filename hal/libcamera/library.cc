@@ -377,19 +377,21 @@ void LibrarySession::Close() {
 
 std::unique_ptr<Session> MakeLibrarySession() { return std::make_unique<LibrarySession>(); }
 
-Result<std::vector<ListedCamera>> ListCameras() {
+std::vector<CameraInfo> ListCameras() {
+  std::vector<CameraInfo> listed;
   const Manager manager;
-  if (!manager.free()) return Errc::kBusy;
-  const auto cameras = manager.cameras();
-  if (cameras.empty() && IsForbidden()) return Errc::kPermission;
-  std::vector<ListedCamera> listed;
-  for (const auto& camera : cameras) {
+  if (!manager.free()) return listed;
+  for (const auto& camera : manager.cameras()) {
+    CameraInfo& info = listed.emplace_back();
+    info.address = "libcamera:" + camera->id();
+    info.name = ModelOf(*camera);
     const auto configuration = camera->generateConfiguration({lc::StreamRole::Viewfinder});
-    ListedCamera& entry = listed.emplace_back();
-    entry.id = camera->id();
-    entry.model = ModelOf(*camera);
-    if (configuration && !configuration->empty()) {
-      entry.modes = ModesOf(configuration->at(0).formats(), std::nullopt);
+    if (!configuration || configuration->empty()) continue;
+    for (const Mode& mode : ModesOf(configuration->at(0).formats(), std::nullopt)) {
+      info.modes.push_back({.format = std::string(Name(mode.format)),
+                            .readable = true,
+                            .width_px = mode.width_px,
+                            .height_px = mode.height_px});
     }
   }
   return listed;

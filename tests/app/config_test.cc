@@ -44,8 +44,8 @@ TEST(LoadConfig, SaysWhatIsWrongWhereAndWhatWouldBeRight) {
        "\"attention\"?"},
       {"camera = 3\n", "F:1:10: camera: is a number; expected a table"},
       {"[camera]\ndevice = \"usb\"\n",
-       "F:2:10: camera.device: \"usb\" is not understood; expected \"v4l2:/dev/videoN\" or "
-       "\"replay\""},
+       "F:2:10: camera.device: \"usb\" is not understood; expected \"v4l2:/dev/videoN\", "
+       "\"libcamera:N\" or \"replay\""},
       {"[camera]\nformat = \"h264\"\n",
        "F:2:10: camera.format: \"h264\" is none of \"auto\", \"yuyv\", \"nv12\", "
        "\"i420\", \"rgb24\", \"bgr24\", \"mjpeg\", \"grey\""},

@@ -124,7 +124,7 @@ TEST(StartCamera, SaysInOneLineWhatIsWrong) {
   EXPECT_THAT(starting("replay:/missing.mp4"), SaysOneLine("there is no video /missing.mp4"));
   EXPECT_THAT(starting("/missing.mp4"), SaysOneLine("there is no video /missing.mp4"));
   EXPECT_THAT(starting(folder.File("text.mp4")), SaysOneLine("is not a video that can be played"));
-  EXPECT_THAT(starting("libcamera:0"), SaysOneLine("no libcamera"));
+  EXPECT_THAT(starting("libcamera:of-nobody"), SaysOneLine("libcamera:of-nobody: "));
   const std::string clip = FACEWIRE_ASSETS "/footage/franck.mp4";
   EXPECT_THAT(starting(clip, {.memory_bytes = 1000}), SaysOneLine("one frame takes"));
   EXPECT_THAT(starting(clip, {.loop = hal::LoopMode::kPingPong}), SaysOneLine("needs memory"));

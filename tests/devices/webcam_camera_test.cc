@@ -164,7 +164,7 @@ TEST_P(WebcamTest, FramesRiseInNumberAndTimeAtTheCamerasRate) {
     ASSERT_TRUE(frame) << camera->reason();
     const Duration age = clock.Now() - frame->captured;
     EXPECT_GE(age, Duration::zero());
-    EXPECT_LT(age, seconds(1));
+    EXPECT_LT(age, seconds(5));  // of an emulated processor that has other things to do, too
     if (i == 0) {
       first = *frame;
     } else {
@@ -295,18 +295,18 @@ TEST_P(WebcamTest, LeavesNoFileOpen) {
 TEST(WebcamLibcamera, IsListedWithWhatItCanDoAndFoundByItsId) {
   Webcam webcam;
   webcam.Reset();
-  const auto cameras = hal::libcamera::ListCameras();
-  ASSERT_TRUE(cameras);
-  ASSERT_EQ(cameras->size(), 1U);  // vivid is none for libcamera
-  const hal::libcamera::ListedCamera& listed = cameras->front();
-  std::printf("%s: %s\n", listed.id.c_str(), listed.model.c_str());
-  EXPECT_NE(listed.model.find(kWebcamName), std::string::npos);
-  EXPECT_NE(std::find(listed.modes.begin(), listed.modes.end(),
-                      hal::libcamera::Mode{CameraFormat::kMjpeg, 1280, 720}),
-            listed.modes.end());
+  const std::vector<hal::CameraInfo> cameras = hal::libcamera::ListCameras();
+  ASSERT_EQ(cameras.size(), 1U);  // vivid is none for libcamera
+  const hal::CameraInfo& listed = cameras.front();
+  std::printf("%s: %s\n", listed.address.c_str(), listed.name.c_str());
+  EXPECT_NE(listed.name.find(kWebcamName), std::string::npos);
+  EXPECT_TRUE(std::any_of(listed.modes.begin(), listed.modes.end(), [](const auto& mode) {
+    return mode.format == "mjpeg" && mode.width_px == 1280 && mode.height_px == 720;
+  }));
+  const std::string id = listed.address.substr(std::string("libcamera:").size());
   hal::SystemClock clock;
   LibcameraConfig config;
-  config.camera = listed.id;
+  config.camera = id;
   config.width_px = 1280;
   config.height_px = 720;
   LibcameraCamera camera(config, clock);
@@ -314,12 +314,12 @@ TEST(WebcamLibcamera, IsListedWithWhatItCanDoAndFoundByItsId) {
   const Result<Frame> frame = camera.Acquire(kAmple);
   ASSERT_TRUE(frame) << camera.reason();
   EXPECT_EQ(frame->image.width_px, 1280);
-  EXPECT_EQ(hal::libcamera::ListCameras().error(), Errc::kBusy);
+  EXPECT_TRUE(hal::libcamera::ListCameras().empty());  // one at a time
   config.camera = "1";
   camera.Stop();
   LibcameraCamera missing(config, clock);
   EXPECT_EQ(missing.Start().error(), Errc::kNotFound);
-  EXPECT_NE(missing.reason().find("0: " + listed.id), std::string_view::npos) << missing.reason();
+  EXPECT_NE(missing.reason().find("0: " + id), std::string_view::npos) << missing.reason();
 }
 
 }  // namespace

@@ -51,7 +51,8 @@ void AddTrack(CLI::App& facewire) {
       "track", "Follow a face and write its landmarks, one JSON line a frame");
   command
       ->add_option("INPUT", options->face.input,
-                   "A video file, v4l2:/dev/videoN or libcamera:N; Ctrl-C ends a camera's take")
+                   "A video file, v4l2:/dev/videoN, libcamera:N or libcamera:ID; Ctrl-C ends a "
+                   "camera's take")
       ->required();
   command->add_option("--out", options->out, "The JSON lines file to write")->required();
   AddFaceOptions(*command, options->face);

@@ -78,6 +78,7 @@ TEST_F(LibcameraCameraTest, ASilentCameraIsATimeoutAndGoesOn) {
   LibcameraCamera camera = Make();
   ASSERT_TRUE(camera.Start());
   EXPECT_EQ(camera.Acquire(milliseconds(5)).error(), Errc::kTimeout);
+  EXPECT_THAT(camera.reason(), IsEmpty());
   session.Capture(1);
   EXPECT_TRUE(camera.Acquire(kNoWait));
 }
@@ -89,6 +90,7 @@ TEST_F(LibcameraCameraTest, DamagedPicturesAreDroppedAndCounted) {
   session.Capture(data, {data.size()}, 0, false);  // the driver says so
   session.Capture(data, {data.size() - 1});        // too short
   EXPECT_EQ(camera.Acquire(kNoWait).error(), Errc::kTimeout);
+  EXPECT_THAT(std::string(camera.reason()), HasSubstr("sends only damaged pictures"));
   EXPECT_EQ(camera.counts().damaged, 2U);
   EXPECT_EQ(session.queued.size(), 4U);
   session.Capture(1);
@@ -274,12 +276,9 @@ TEST(LibcameraLibrary, ACameraThatIsNotThereIsNamedInOneLine) {
 }
 
 TEST(LibcameraLibrary, ListsWhatItHas) {
-  const Result<std::vector<ListedCamera>> cameras = ListCameras();
-  if (!cameras) {
-    EXPECT_EQ(cameras.error(), Errc::kPermission);
-    return;
+  for (const CameraInfo& camera : ListCameras()) {
+    EXPECT_EQ(camera.address.substr(0, 10), "libcamera:");
   }
-  for (const ListedCamera& camera : *cameras) EXPECT_FALSE(camera.id.empty());
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ TEST(FacewireCli, AnswersBadInputWithOneLineAndExitCode2) {
       {{"track", no_video}, "--out is required"},
       {{"track", no_video, "--out", out}, "no_video.mp4"},
       {{"track", "/nowhere.mp4", "--out", out}, "/nowhere.mp4"},
-      {{"track", "libcamera:0", "--out", out}, "libcamera"},
+      {{"track", "libcamera:of-nobody", "--out", out}, "libcamera:of-nobody: "},
       {{"track", "v4l2:/dev/no_such_camera", "--out", out}, "/dev/no_such_camera"},
       {{"track", no_video, "--out", out, "--model", "huge"}, "huge"},
       {{"track", no_video, "--out", out, "--networks", "/nowhere"}, "/nowhere"},
