@@ -40,6 +40,7 @@ CameraOptions CameraOptionsOf(const CameraConfig& camera) {
   options.width_px = camera.width_px;
   options.height_px = camera.height_px;
   options.fps = camera.fps;
+  options.format = camera.format;
   options.pace =
       camera.replay.pace == ReplayConfig::Pace::kFast ? hal::Pace::kFast : hal::Pace::kRealTime;
   switch (camera.replay.loop) {
@@ -330,10 +331,15 @@ void Application::Supervise() {
 
 void Application::LogStateChange() {
   const wire::Status& status = service_->status();
+  std::array<char, 48> damage{};  // said where there is any: a bad cable, a crowded USB bus
+  if (const std::uint64_t pictures = service_->stats().frames_damaged; pictures > 0) {
+    std::snprintf(damage.data(), damage.size(), ", %llu damaged pictures",
+                  static_cast<unsigned long long>(pictures));
+  }
   std::array<char, 160> text;
   const int size = std::snprintf(
-      text.data(), text.size(), "%s, %d.%d fps, latency %u ms, line %s", Name(service_->state()),
-      status.centi_fps / 100, status.centi_fps / 10 % 10,
+      text.data(), text.size(), "%s, %d.%d fps%s, latency %u ms, line %s", Name(service_->state()),
+      status.centi_fps / 100, status.centi_fps / 10 % 10, damage.data(),
       static_cast<unsigned>(status.latency_p50_us / 1000), line_->connected() ? "up" : "gone");
   supervisor_.Status({text.data(), static_cast<std::size_t>(size)});
   if (service_->state() == logged_) return;
@@ -434,6 +440,7 @@ RunReport Application::Report() const {
   report.frames = stats.frames;
   report.fps = report.seconds > 0 ? static_cast<double>(stats.frames) / report.seconds : 0;
   report.frames_dropped = stats.frames_dropped;
+  report.frames_damaged = stats.frames_damaged;
   report.faces = stats.faces;
   report.rejected = stats.rejected;
   report.losses = stats.losses;
@@ -445,6 +452,8 @@ RunReport Application::Report() const {
   report.poses_dropped = line.poses_dropped;
   report.line_errors = line.write_errors;
   report.line_bytes = line.bytes;
+  report.line_losses = line.hang_ups;
+  report.line_reopens = line.opens > 0 ? line.opens - 1 : 0;
   report.resident_bytes = ResidentBytes();
   report.footage_bytes = Memory().parts.back().bytes;
   return report;

@@ -1,7 +1,11 @@
 #include "app/config.h"
 
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "app/toml_reader.h"
 #include "hal/gpiod/find_line.h"
@@ -42,6 +46,12 @@ void ReadCamera(TableReader camera, const std::filesystem::path& folder, CameraC
   camera.Integer("width_px", config.width_px, 64, 4096, "px");
   camera.Integer("height_px", config.height_px, 64, 4096, "px");
   camera.Integer("fps", config.fps, 1, 240, "Hz");
+  std::vector<std::pair<std::string_view, std::optional<hal::CameraFormat>>> formats = {
+      {"auto", std::nullopt}};
+  for (const hal::CameraFormat format : hal::kEveryCameraFormat) {
+    formats.emplace_back(hal::Name(format), format);
+  }
+  camera.Choice("format", config.format, formats);
   TableReader replay = camera.Table("replay");
   ReadPath(replay, "file", folder, config.replay.file);
   replay.Choice<Pace>("pace", config.replay.pace,

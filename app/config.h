@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/base/time.h"
@@ -11,6 +12,7 @@
 #include "core/pose/pose_estimator.h"
 #include "core/state/state_machine.h"
 #include "core/track/tracker.h"
+#include "hal/camera_format.h"
 #include "hal/gpiod/library.h"
 
 // facewire.toml as plain structs. The defaults here are the defaults of the file;
@@ -31,6 +33,8 @@ struct CameraConfig {
   int width_px = 640;
   int height_px = 480;
   int fps = 30;
+  // In what form it sends its pictures; nullopt: whichever reaches size and rate at the least cost.
+  std::optional<hal::CameraFormat> format;
   ReplayConfig replay;
 };
 

@@ -131,6 +131,7 @@ std::unique_ptr<hal::Camera> MakeCamera(const std::string& address, const Camera
     config.width_px = options.width_px;
     config.height_px = options.height_px;
     config.fps = options.fps;
+    if (options.format) config.formats = {*options.format};
     return std::make_unique<hal::v4l2::V4l2Camera>(std::move(config), clock);
   }
   return std::make_unique<hal::replay::ReplayCamera>(
@@ -143,7 +144,11 @@ std::unique_ptr<hal::Camera> MakeCamera(const std::string& address, const Camera
 
 std::string DescribeCameraError(Errc error, const hal::Camera& camera, const std::string& address) {
   // What stands behind the camera knows more than the code says.
-  if (!camera.reason().empty()) return std::string(camera.reason());
+  if (!camera.reason().empty()) {
+    const bool lost = error == Errc::kNotFound && address.starts_with(kV4l2);
+    return std::string(camera.reason()) +
+           (lost ? "; `facewire doctor --cameras` lists those there are" : "");
+  }
   const std::string name = Without(Without(address, kV4l2), kReplay);
   if (error == Errc::kTimeout) return name + " is silent: it sends no pictures";
   if (error == Errc::kEnd) return name + " is over";

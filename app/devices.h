@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/base/result.h"
 #include "hal/camera.h"
+#include "hal/camera_format.h"
 #include "hal/clock.h"
 #include "hal/playback.h"
 #include "hal/serial_port.h"
@@ -35,13 +37,15 @@ struct CameraOptions {
   int width_px = 640;  // of a live camera, as are height and fps; it may give its nearest
   int height_px = 480;
   double fps = 30;
-  hal::Pace pace = hal::Pace::kRealTime;  // of a recording, as are loop and memory
+  std::optional<hal::CameraFormat> format = {};  // of a live camera; nullopt: the best it has
+  hal::Pace pace = hal::Pace::kRealTime;         // of a recording, as are loop and memory
   hal::LoopMode loop = hal::LoopMode::kNone;
   std::size_t memory_bytes = 0;  // see hal::replay::ReplayConfig
 };
 
-// The camera by its address: "v4l2:/dev/videoN", "replay:FILE" or just FILE (a video). Touches no
-// device yet. BadInput for a camera that this program has no backend for. `clock` is borrowed.
+// The camera by its address: "v4l2:/dev/videoN" or "v4l2:" and a link to it, "replay:FILE" or just
+// FILE (a video). Touches no device yet. BadInput for a camera that this program has no backend
+// for. `clock` is borrowed.
 std::unique_ptr<hal::Camera> MakeCamera(const std::string& address, const CameraOptions& options,
                                         hal::Clock& clock);
 

@@ -28,6 +28,7 @@ struct RunReport {
   std::uint64_t frames = 0;
   double fps = 0;
   std::uint64_t frames_dropped = 0;
+  std::uint64_t frames_damaged = 0;  // of those, broken ones
   std::uint64_t faces = 0;
   std::uint64_t rejected = 0;
   std::uint64_t losses = 0;
@@ -39,6 +40,8 @@ struct RunReport {
   std::uint64_t poses_dropped = 0;
   std::uint64_t line_errors = 0;
   std::uint64_t line_bytes = 0;
+  std::uint64_t line_losses = 0;   // times that the open line was lost
+  std::uint64_t line_reopens = 0;  // times that it was opened again
   std::size_t resident_bytes = 0;  // of the whole process, now
   std::size_t footage_bytes = 0;   // of that, the recording decoded ahead
 };

@@ -89,6 +89,7 @@ state::Sight Service::Look() noexcept {
   }
   const auto left = std::max(deadline_ - parts_.clock.Now(), Duration{});
   const Result<Frame> frame = parts_.camera.Acquire(std::chrono::ceil<milliseconds>(left));
+  CountDamaged();
   if (!frame) {
     MissPicture(frame.error());
     return state::Sight::kSilent;
@@ -122,6 +123,12 @@ state::Sight Service::See(const Frame& frame) noexcept {
   return SightOf(followed);
 }
 
+void Service::CountDamaged() noexcept {
+  const std::uint64_t now = parts_.camera.counts().damaged;
+  stats_.frames_damaged += now - damaged_;
+  damaged_ = now;
+}
+
 void Service::MissPicture(Errc why) noexcept {
   ++stats_.silent_ticks;
   const Time clock = parts_.clock.Now();
@@ -149,6 +156,7 @@ void Service::RestartCamera() noexcept {
   const Time clock = parts_.clock.Now();
   if (!restart_.Due(clock)) return;
   ++stats_.camera_restarts;
+  damaged_ = 0;
   running_ = camera_opens_ = parts_.camera.Start().has_value();
   last_seq_.reset();
   // Only a picture ends the back-off: a camera may start and stay silent again and again.

@@ -93,6 +93,7 @@ class Service {
  private:
   state::Sight Look() noexcept;
   state::Sight See(const Frame& frame) noexcept;
+  void CountDamaged() noexcept;
   void MissPicture(Errc why) noexcept;
   void RestartCamera() noexcept;
   void ReadCommands(state::Inputs& in) noexcept;
@@ -113,9 +114,10 @@ class Service {
   Calibration::Outcome outcome_;
   std::optional<retarget::Neutral> neutral_;
 
-  bool running_ = true;       // the camera
-  bool camera_opens_ = true;  // at the last try
-  bool ended_ = false;        // the recording
+  bool running_ = true;        // the camera
+  bool camera_opens_ = true;   // at the last try
+  bool ended_ = false;         // the recording
+  std::uint64_t damaged_ = 0;  // pictures that the camera dropped since its start
   Backoff restart_;
   std::optional<std::uint64_t> last_seq_;
   Time last_picture_{};    // by the clock

@@ -63,6 +63,7 @@ struct ServiceStats {
   std::uint64_t ticks = 0;
   std::uint64_t frames = 0;           // pictures processed
   std::uint64_t frames_dropped = 0;   // captured by the camera, but seen by nobody (gaps in seq)
+  std::uint64_t frames_damaged = 0;   // came broken from the camera, and were dropped there
   std::uint64_t faces = 0;            // frames with a face to follow
   std::uint64_t rejected = 0;         // frames with a face that cannot be right
   std::uint64_t losses = 0;           // times that tracking was lost

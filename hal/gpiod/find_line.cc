@@ -17,7 +17,7 @@ std::string Text(const ChipInfo& chip) {
 std::string List(const std::vector<ChipInfo>& chips) {
   std::string text;
   for (const ChipInfo& chip : chips) text += (text.empty() ? "" : ", ") + Text(chip);
-  return text.empty() ? "none" : text;
+  return text;
 }
 
 Result<ChipInfo> Describe(Library& library, const std::string& path, std::string& reason) {
@@ -62,8 +62,8 @@ Result<std::vector<ChipInfo>> FindChips(Library& library, const std::string& nam
   }
   if (found.empty()) {
     if (unreadable) return *unreadable;  // it may be that one
-    reason = "there is no GPIO chip" + (name.empty() ? "" : " \"" + name + "\"") +
-             "; this machine has: " + List(all);
+    reason = all.empty() ? "this machine has no GPIO chip"
+                         : "there is no GPIO chip \"" + name + "\"; this machine has: " + List(all);
     return Errc::kNotFound;
   }
   return found;

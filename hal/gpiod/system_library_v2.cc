@@ -2,6 +2,8 @@
 
 #include <gpiod.h>
 
+#include <cerrno>
+
 #include "hal/gpiod/system_library.h"
 
 namespace facewire::hal::gpiod {
@@ -54,7 +56,11 @@ gpiod_line_bias BiasOf(Bias bias) noexcept {
 
 std::optional<ChipInfo> LinkedLibrary::Describe(const std::string& path) {
   const Chip chip(gpiod_chip_open(path.c_str()));
-  if (chip == nullptr) return std::nullopt;
+  if (chip == nullptr) {
+    // A node of another kind answers as one whose device has gone; version 1 tells them apart.
+    if (errno == ENODEV && !gpiod_is_gpiochip_device(path.c_str())) errno = ENOTTY;
+    return std::nullopt;
+  }
   const Owned<gpiod_chip_info, gpiod_chip_info_free> about(gpiod_chip_get_info(chip.get()));
   if (about == nullptr) return std::nullopt;
   ChipInfo info{path,

@@ -46,6 +46,9 @@ TEST(LoadConfig, SaysWhatIsWrongWhereAndWhatWouldBeRight) {
       {"[camera]\ndevice = \"usb\"\n",
        "F:2:10: camera.device: \"usb\" is not understood; expected \"v4l2:/dev/videoN\" or "
        "\"replay\""},
+      {"[camera]\nformat = \"h264\"\n",
+       "F:2:10: camera.format: \"h264\" is none of \"auto\", \"yuyv\", \"nv12\", "
+       "\"i420\", \"rgb24\", \"bgr24\", \"mjpeg\", \"grey\""},
       {"[camera]\ndevice = \"replay\"\n",
        "F:2:10: camera.device: is \"replay\" but camera.replay.file names no video"},
       {"[camera.replay]\nloop = \"ping-pong\"\n",
@@ -161,6 +164,18 @@ TEST(LoadConfig, AcceptsAnEmptyFile) {
   EXPECT_EQ(config.camera.fps, 30);
 }
 
+TEST(LoadConfig, TheFormatOfTheCameraIsFoundOrNamed) {
+  const Scratch scratch;
+  const auto format = [&](const std::string& name) {
+    return LoadConfig(scratch.Write("f.toml", "[camera]\nformat = \"" + name + "\"\n"))
+        .camera.format;
+  };
+  EXPECT_EQ(format("auto"), std::nullopt);
+  for (const hal::CameraFormat each : hal::kEveryCameraFormat) {
+    EXPECT_EQ(format(std::string(hal::Name(each))), each);
+  }
+}
+
 // Two configurations are equal when the reader, asked for every key, makes the same of them.
 TEST(ExampleConfig, ListsEveryKeyWithItsDefault) {
   const std::filesystem::path example =
@@ -172,6 +187,7 @@ TEST(ExampleConfig, ListsEveryKeyWithItsDefault) {
   EXPECT_EQ(read.camera.width_px, defaults.camera.width_px);
   EXPECT_EQ(read.camera.height_px, defaults.camera.height_px);
   EXPECT_EQ(read.camera.fps, defaults.camera.fps);
+  EXPECT_EQ(read.camera.format, defaults.camera.format);
   EXPECT_EQ(read.camera.replay.file, defaults.camera.replay.file);
   EXPECT_EQ(read.camera.replay.pace, defaults.camera.replay.pace);
   EXPECT_EQ(read.camera.replay.loop, defaults.camera.replay.loop);

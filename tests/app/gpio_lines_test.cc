@@ -44,7 +44,7 @@ TEST(OpenGpioLines, NamesEveryLineThatCannotBeHad) {
   } catch (const BadInput& error) {
     for (const char* key : {"gpio.stop_line: ", "\ngpio.calibrate_line: ",
                             "\ngpio.status_led_line: ", "\ngpio.servo_power_line: "}) {
-      EXPECT_THAT(error.what(), HasSubstr(std::string(key) + "there is no GPIO chip \"a chip"));
+      EXPECT_THAT(error.what(), HasSubstr(key));
     }
   }
 }

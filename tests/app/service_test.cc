@@ -108,6 +108,22 @@ TEST(Service, RestartsASilentCameraAndRecovers) {
   EXPECT_FALSE(c.service->Hopeless());
 }
 
+TEST(Service, CountsDamagedPicturesOverRestartsOfTheCamera) {
+  ServiceContext c;
+  c.BringToTracking();
+  c.camera.Damage(3);
+  c.For(milliseconds(100));
+  EXPECT_EQ(c.service->stats().frames_damaged, 3U);
+  c.camera.Unplug();
+  c.For(seconds(1));
+  c.camera.Plug();
+  c.For(seconds(9));
+  EXPECT_EQ(c.last_pose.state, S::kTracking);
+  c.camera.Damage(2);
+  c.For(milliseconds(100));
+  EXPECT_EQ(c.service->stats().frames_damaged, 5U);
+}
+
 TEST(Service, RecoversWhenTheCameraIsReplugged) {
   ServiceContext c;
   c.BringToTracking();

@@ -14,7 +14,7 @@ void FilterOneFrame(benchmark::State& state) {
     face.captured += std::chrono::milliseconds(33);
     for (Point3& p : face.points_px) p.x += sway_px;
     sway_px = -sway_px;
-    const auto out = filter.Update(face);
+    auto out = filter.Update(face);
     if (!out) state.SkipWithError("the face was rejected");
     benchmark::DoNotOptimize(out);
   }

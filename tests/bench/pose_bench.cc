@@ -11,7 +11,7 @@ void EstimateOnePose(benchmark::State& state) {
       test::Photograph(test::GeneratedFace(), {.rotation = test::Rotation(10, 20, 5)});
   const PoseEstimator estimator{PoseConfig{}};
   for (auto _ : state) {
-    const auto pose = estimator.Update(face);
+    auto pose = estimator.Update(face);
     if (!pose) state.SkipWithError("the face was rejected");
     benchmark::DoNotOptimize(pose);
   }

@@ -16,6 +16,7 @@ class JsonLines:
         self._received = b""
 
     def send(self, message):
+        self._socket.settimeout(60)
         self._socket.sendall(json.dumps(message).encode() + b"\n")
 
     def receive(self, timeout):

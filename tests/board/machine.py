@@ -125,7 +125,7 @@ class Machine:
         at = self.folder
         return [
             "qemu-system-aarch64", "-M", "virt", "-cpu", "cortex-a72", "-smp", "2", "-m", "2048",
-            "-accel", "tcg,thread=multi", "-nodefaults", "-display", "none", "-no-reboot",
+            "-icount", "shift=0", "-nodefaults", "-display", "none", "-no-reboot",
             "-kernel", self.parts / "vmlinuz", "-initrd", self.parts / "initrd",
             "-append", "console=ttyAMA0 loglevel=5 root=/dev/vda panic=0",
             "-serial", f"file:{at}/console-{self._boots}.log",

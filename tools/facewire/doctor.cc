@@ -11,18 +11,24 @@
 #include <ctime>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "app/camera_list.h"
 #include "app/config.h"
 #include "app/error.h"
 #include "app/networks.h"
 #include "app/profile_file.h"
 #include "app/rig_file.h"
+#include "tools/facewire/camera_report.h"
 #include "tools/facewire/commands.h"
+#include "tools/facewire/doctor_gpio.h"
 #include "tools/facewire/face_reader.h"
+#include "tools/facewire/finding.h"
 #include "tools/facewire/json.h"
 
 namespace facewire::tools {
@@ -34,19 +40,12 @@ struct DoctorOptions {
   std::string config = "/etc/facewire/facewire.toml";
   std::string networks;
   bool json = false;
+  bool cameras = false;
 };
 
-enum class Verdict { kOk, kWarn, kFail };  // works; a part will not work; nothing will
 const char* Name(Verdict verdict) {
   return verdict == Verdict::kOk ? "OK" : verdict == Verdict::kWarn ? "WARN" : "FAIL";
 }
-
-struct Finding {
-  std::string what;
-  Verdict verdict = Verdict::kOk;
-  std::string found;
-  std::string fix;  // a command, or what to do; empty when all is well
-};
 
 // The first line of a message; its other lines are more of the same kind.
 std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
@@ -70,17 +69,19 @@ Finding CheckNetworks(const DoctorOptions& options) {
   });
 }
 
-void CheckConfig(const DoctorOptions& options, std::vector<Finding>& findings) {
+// The configuration, or none when there is none to be had.
+std::optional<app::Config> CheckConfig(const DoctorOptions& options,
+                                       std::vector<Finding>& findings) {
   if (!fs::exists(options.config)) {
     findings.push_back({"configuration", Verdict::kWarn, "there is no " + options.config,
                         "copy app/share/facewire.toml there, or name another with --config"});
-    return;
+    return std::nullopt;
   }
   app::Config config;
   findings.push_back(Try("configuration", options.config,
                          "facewired --check --config " + options.config,
                          [&] { config = app::LoadConfig(options.config); }));
-  if (findings.back().verdict != Verdict::kOk) return;
+  if (findings.back().verdict != Verdict::kOk) return std::nullopt;
   findings.push_back(Try("rig", config.character.rig.string(), "correct [character] rig",
                          [&] { (void)app::LoadRig(config.character.rig); }));
   const auto check_profile = [&](const fs::path& path, const std::string& key) {
@@ -90,6 +91,7 @@ void CheckConfig(const DoctorOptions& options, std::vector<Finding>& findings) {
   };
   check_profile(config.character.profile, "profile");
   check_profile(config.character.personal, "personal");
+  return config;
 }
 
 // Device nodes whose names begin with one of the prefixes, in order.
@@ -106,6 +108,18 @@ std::vector<std::string> Devices(std::initializer_list<std::string_view> prefixe
   return found;
 }
 
+// The links that udev keeps for a device, whatever number it gets: " = LINK" for each.
+std::string StableNames(const std::string& device) {
+  std::string names;
+  for (const char* folder : {"/dev/serial/by-id", "/dev/serial/by-path"}) {
+    std::error_code ignored;
+    for (const auto& link : fs::directory_iterator(folder, ignored)) {
+      if (fs::equivalent(link.path(), device, ignored)) names += " = " + link.path().string();
+    }
+  }
+  return names;
+}
+
 void CheckDevices(const std::string& what, std::initializer_list<std::string_view> prefixes,
                   const std::string& group, std::vector<Finding>& findings) {
   const std::vector<std::string> devices = Devices(prefixes);
@@ -118,7 +132,7 @@ void CheckDevices(const std::string& what, std::initializer_list<std::string_vie
     const int error = errno;
     if (fd >= 0) {
       close(fd);
-      findings.push_back({what, Verdict::kOk, device, ""});
+      findings.push_back({what, Verdict::kOk, device + StableNames(device), ""});
     } else if (error == EACCES) {
       findings.push_back({what, Verdict::kFail, device + ": no permission",
                           "sudo usermod -aG " + group + " $USER, then log in again"});
@@ -126,6 +140,20 @@ void CheckDevices(const std::string& what, std::initializer_list<std::string_vie
       findings.push_back({what, Verdict::kWarn, device + ": " + std::strerror(error),
                           "end the program that holds it, or unplug it and plug it in again"});
     }
+  }
+}
+
+void CheckCameras(std::vector<Finding>& findings) {
+  const std::vector<hal::CameraInfo> cameras = app::ListCameras();
+  if (cameras.empty()) {
+    findings.push_back({"camera", Verdict::kWarn, "none is plugged in",
+                        "plug one in; dmesg shows whether it is seen"});
+  }
+  for (const hal::CameraInfo& camera : cameras) {
+    const std::string problem = ProblemOf(camera);
+    const Verdict bad = camera.problem == Errc::kPermission ? Verdict::kFail : Verdict::kWarn;
+    findings.push_back({"camera", problem.empty() ? Verdict::kOk : bad,
+                        camera.address + (problem.empty() ? "" : ": " + problem), FixOf(camera)});
   }
 }
 
@@ -190,12 +218,30 @@ void PrintJson(const std::vector<Finding>& findings) {
   }
 }
 
+void ListCameras(const DoctorOptions& options) {
+  const std::vector<hal::CameraInfo> cameras = app::ListCameras();
+  std::fputs((options.json ? CameraJson(cameras) : CameraTable(cameras)).c_str(), stdout);
+  if (cameras.empty()) {
+    throw app::Failure("doctor: there is no camera; plug one in, dmesg shows whether it is seen");
+  }
+  const auto usable = [](const hal::CameraInfo& camera) { return ProblemOf(camera).empty(); };
+  if (std::ranges::none_of(cameras, usable)) {
+    throw app::Failure("doctor: none of these cameras can be used as it is");
+  }
+}
+
 void Doctor(const DoctorOptions& options) {
+  if (options.cameras) {
+    ListCameras(options);
+    return;
+  }
   std::vector<Finding> findings;
   findings.push_back(CheckNetworks(options));
-  CheckConfig(options, findings);
-  CheckDevices("camera", {"video"}, "video", findings);
+  const std::optional<app::Config> config = CheckConfig(options, findings);
+  CheckCameras(findings);
   CheckDevices("serial port", {"ttyACM", "ttyUSB", "ttyAMA", "ttyGS"}, "dialout", findings);
+  std::ranges::move(CheckGpio(config ? &config->gpio : nullptr, hal::gpiod::SystemLibrary()),
+                    std::back_inserter(findings));
   findings.push_back(CheckGroup("video"));
   findings.push_back(CheckGroup("dialout"));
   findings.push_back(CheckClock());
@@ -217,6 +263,9 @@ void AddDoctor(CLI::App& facewire) {
   command->add_option(
       "--networks", options->networks,
       "Folder of the .tflite files; else FACEWIRE_NETWORKS, else the installed ones");
+  command->add_flag("--cameras", options->cameras,
+                    "Only list the cameras: the device line for facewire.toml, formats, sizes, "
+                    "rates, and who holds one; exit code 1 when none can be used");
   command->add_flag("--json", options->json, "A JSON object a line instead of a table");
   command->footer(
       "OK: works. WARN: a part will not work. FAIL: must be put right first, exit code 1.");

@@ -106,8 +106,9 @@ def _option(declaration):
         option.notes.append(f"{found[1]} to {found[2]}")
     if take(r":POSITIVE\b"):
         option.notes.append("above 0")
-    if found := take(r"=(\S+)"):
-        option.notes.append(f"default {found[1]}")
+    # CLI11 2.1 says TEXT=value, 2.4 says TEXT [value].
+    if found := take(r"=(\S+)|\[(\S+)\]"):
+        option.notes.append(f"default {found[1] or found[2]}")
     if found := take(r"^\s*(TEXT|INT|UINT|FLOAT)\b"):
         option.value = found[1]
     if rest.strip():

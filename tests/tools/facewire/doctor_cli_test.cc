@@ -1,12 +1,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "tests/tools/facewire/run.h"
 
 namespace facewire::tools {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(FacewireDoctor, SaysWhatIsMissingAndWhatFixesIt) {
   const Outcome outcome = RunFacewire({"doctor", "--networks", "/nowhere"});
@@ -24,6 +28,22 @@ TEST(FacewireDoctor, ReadsTheConfigurationThatItIsGiven) {
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.out, HasSubstr("{\"check\":\"networks\",\"verdict\":\"OK\""));
   EXPECT_THAT(outcome.out, HasSubstr("{\"check\":\"configuration\",\"verdict\":\"FAIL\""));
+}
+
+// Whatever cameras this machine has: a list and success, or one line that says why not.
+TEST(FacewireDoctor, ListsTheCamerasAndNothingElse) {
+  for (const bool json : {false, true}) {
+    std::vector<std::string> arguments = {"doctor", "--cameras"};
+    if (json) arguments.emplace_back("--json");
+    const Outcome outcome = RunFacewire(arguments);
+    EXPECT_THAT(outcome.out, Not(HasSubstr("networks")));
+    if (outcome.code == 0) {
+      EXPECT_THAT(outcome.out, HasSubstr(json ? "{\"address\":" : "  device = \""));
+    } else {
+      EXPECT_EQ(outcome.code, 1);
+      EXPECT_THAT(outcome.err, HasSubstr("camera"));
+    }
+  }
 }
 
 }  // namespace
