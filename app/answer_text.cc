@@ -12,8 +12,14 @@ const char* DoneText(CommandCode code) noexcept {
   switch (code) {
     case CommandCode::kCalibrateNeutral:
       return "the neutral was taken, and is kept";
+    case CommandCode::kRest:
+      return "easing to neutral; `facewire release` lets it follow again";
+    case CommandCode::kStop:
+      return "stopped, over restarts too; `facewire release` ends it";
     case CommandCode::kRelease:
       return "released";
+    case CommandCode::kReload:
+      return "reloaded rig, blend, filter, rates and state times; other changes need a restart";
     default:
       return "done";
   }
@@ -27,15 +33,30 @@ const char* RefusedText(CommandCode code) noexcept {
       return "the emergency stop's line is open: unlock its switch, or mend its wire, then release";
     case CommandCode::kBlendProfile:
       return "there is no personal profile to blend in, or the part is not within 0 and 100 %";
+    case CommandCode::kReport:
+    case CommandCode::kReload:
+      return "only programs on the device itself may ask that, on its control socket";
     default:
       return "refused in the present state";
   }
 }
 
 const char* FailedText(CommandCode code) noexcept {
-  return code == CommandCode::kCalibrateNeutral
-             ? "the neutral could not be used or not be stored; the service's journal says why"
-             : "failed";
+  switch (code) {
+    case CommandCode::kCalibrateNeutral:
+      return "the neutral could not be used";
+    case CommandCode::kRelease:
+      return "not released: the stop is remembered where it cannot be removed";
+    case CommandCode::kReload:
+      return "not reloaded, running on as before";
+    default:
+      return "failed";
+  }
+}
+
+const char* NotKeptText(CommandCode code) noexcept {
+  return code == CommandCode::kStop ? "stopped, but a restart may forget it"
+                                    : "the neutral was taken, but is kept only until the restart";
 }
 
 // The measure stands where the %g is.
@@ -75,6 +96,9 @@ std::array<char, 160> AnswerText(const wire::Acknowledgement& answer) noexcept {
       break;
     case CommandResult::kFailed:
       plain = FailedText(answer.code);
+      break;
+    case CommandResult::kNotKept:
+      plain = NotKeptText(answer.code);
       break;
     default:
       break;

@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <system_error>
 #include <utility>
 
 #include "app/answer_text.h"
@@ -12,6 +14,7 @@
 #include "app/networks.h"
 #include "app/neutral_file.h"
 #include "app/rig_file.h"
+#include "app/status_report.h"
 #include "core/wire/rig_description.h"
 #include "hal/fake/fake_camera.h"
 #include "hal/replay/replay_camera.h"
@@ -20,7 +23,6 @@ namespace facewire::app {
 namespace {
 
 using std::chrono::milliseconds;
-using std::chrono::seconds;
 
 // The address of the recording or camera.
 std::string CameraAddress(const CameraConfig& camera, bool fake) {
@@ -81,20 +83,10 @@ std::unique_ptr<Profile> LoadLiveProfile(const std::filesystem::path& path) {
   return profile;
 }
 
-// One line to the journal; never more than once a second from the loop. Does not allocate.
-void Log(const char* text) noexcept {
-  std::array<char, 512> line;
-  const int size = std::snprintf(line.data(), line.size(), "facewired: %s\n", text);
-  if (size <= 0) return;
-  const auto shown = std::min(static_cast<std::size_t>(size), line.size() - 1);
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), shown);
-}
-
-void LogAnswer(const wire::Acknowledgement& answer) noexcept {
-  std::array<char, 256> text;
-  (void)std::snprintf(text.data(), text.size(), "button: %s: %s", Name(answer.code),
-                      AnswerText(answer).data());
-  Log(text.data());
+// Where an emergency stop is remembered: for good, and, when that is impossible, over a restart of
+// the service (RuntimeDirectoryPreserve in the unit).
+std::vector<std::string> LatchFolders(const Config& config) {
+  return {config.neutral.folder.string(), config.control.socket.parent_path().string()};
 }
 
 // Calls `part`; what is wrong with it joins what was wrong before.
@@ -110,13 +102,15 @@ void Collect(std::string& problems, Part part) {
 
 }  // namespace
 
-Application::Application(const ApplicationOptions& options, hal::Clock& clock)
+Application::Application(const ApplicationOptions& options, hal::Clock& clock, Journal& journal)
     : options_(options),
       clock_(clock),
+      journal_(journal),
       config_(LoadConfig(options.config)),
       path_({.tracker = config_.tracker.tracker, .filter = config_.filter, .pose = config_.pose}),
       camera_address_(CameraAddress(config_.camera, options.fake)),
-      line_address_(LineAddress(config_.host, options)) {
+      line_address_(LineAddress(config_.host, options)),
+      latch_(LatchFolders(config_)) {
   Build();
 }
 
@@ -204,6 +198,10 @@ ServiceConfig Application::ServiceConfigOf(const Config& config) const {
   service.min_rate_hz = config.host.min_rate_hz;
   service.describe_every = milliseconds(static_cast<int>(1000 * config.host.describe_every_s));
   service.media_time = PlaysFast();
+  // Nobody at the other end of a pseudo-terminal is no fault.
+  service.line_stuck_after = line_address_.starts_with("pty:")
+                                 ? Duration::zero()
+                                 : milliseconds(static_cast<int>(1000 * config.host.stuck_after_s));
   return service;
 }
 
@@ -214,6 +212,7 @@ void Application::Open() {
   // was asked for and cannot be had is a reason not to start: an emergency stop that does nothing
   // is worse than none.
   lines_ = OpenGpioLines(config_.gpio, options_.fake, clock_);
+  PrepareStorage();
   if (camera_address_.empty()) {
     // Nothing to play: a grey picture, in which nobody is.
     blank_view_.width_px = config_.camera.width_px;
@@ -251,11 +250,37 @@ void Application::Open() {
           .status_led = lines_.status_led.get(),
           .servo_power = lines_.servo_power.get(),
           .keep_neutral = [this](const retarget::Neutral& neutral) { return KeepNeutral(neutral); },
-          .log_answer = LogAnswer,
-          .log_panel = Log},
+          .latch = &latch_,
+          .log_answer =
+              [this](const wire::Acknowledgement& answer) {
+                journal_.Write(Event::kButtonPress, AnswerText(answer).data(), Name(answer.code));
+              },
+          .log_panel = [this](const char* text) { journal_.Write(Event::kBoardLine, text); }},
       *characters_[running_]);
   TakeStoredNeutral();
-  if (!no_control.empty()) Log(no_control.c_str());
+  if (!no_control.empty()) journal_.Write(Event::kNoControl, no_control);
+}
+
+// A board whose disk is full, read-only or gone must still move a face.
+void Application::PrepareStorage() {
+  const std::filesystem::path& folder = config_.neutral.folder;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error && ::access(folder.c_str(), W_OK | X_OK) != 0) {
+    error.assign(errno, std::generic_category());
+  }
+  if (error) {
+    storage_problem_ = folder.string() + ": " + error.message();
+    journal_.Write(Event::kStorageUnwritable,
+                   "neither a neutral nor an emergency stop will outlast a loss of power: " +
+                       storage_problem_);
+  }
+  if (latch_.Engaged()) {
+    journal_.Write(
+        Event::kStopRemembered,
+        "an emergency stop from before the start still holds; `facewire release` ends it",
+        latch_.reason());
+  }
 }
 
 // Why there is no control socket although there should be one; "" when all is well. A puppet that
@@ -280,75 +305,76 @@ std::string Application::OpenControl() {
 // A neutral that cannot be used must not keep a board from starting: the performer is there to give
 // another one.
 void Application::TakeStoredNeutral() {
-  std::error_code ignored;
-  if (std::filesystem::exists(NeutralFile(), ignored)) {
+  std::error_code error;
+  if (std::filesystem::exists(NeutralFile(), error) || error) {
+    std::string why = "cannot be used";
     try {
       if (service_->UseNeutral(LoadNeutral(NeutralFile()))) return;
-      Log((NeutralFile().string() + ": cannot be used; taking a new neutral").c_str());
+      why = NeutralFile().string() + ": " + why;
     } catch (const BadInput& e) {
-      Log((std::string(e.what()) + "; taking a new neutral").c_str());
+      why = e.what();
     }
+    journal_.Write(Event::kNeutralUnusable, why + "; taking a new neutral");
   }
   if (config_.neutral.auto_s > 0) service_->TakeNeutralByItself();
 }
 
-bool Application::KeepNeutral(const retarget::Neutral& neutral) const {
+std::string Application::KeepNeutral(const retarget::Neutral& neutral) const {
   try {
     std::filesystem::create_directories(config_.neutral.folder);
     SaveNeutral(NeutralFile(), neutral);
-    return true;
+    journal_.Write(Event::kNeutralKept, "the performer's neutral is kept");
+    return "";
   } catch (const std::exception& e) {
-    Log(e.what());
-    return false;
+    journal_.Write(Event::kNeutralNotKept,
+                   std::string("the neutral is kept only until the restart: ") + e.what());
+    return e.what();
   }
 }
 
 // The program.
 void Application::Run(Requests& requests, Duration limit) {
   supervisor_.Ready();
-  began_ = next_beat_ = next_log_ = clock_.Now();
+  journal_.Write(Event::kReady, "ready");
+  began_ = clock_.Now();
   const Time media_began = service_->now();
   while (service_->Tick()) {
-    Supervise();
+    observer_.Look(*service_, clock_.Now());
+    RunErrands();
     if (requests.quit.load() > 0) service_->Quit();
     if (requests.quit.load() > 1) break;
     if (limit > Duration::zero() && service_->now() - media_began >= limit) service_->Quit();
-    if (requests.reload.exchange(false)) Reload();
+    if (requests.reload.exchange(false)) (void)Reload();
   }
   supervisor_.Stopping();
 }
 
-void Application::Supervise() {
-  const Time now = clock_.Now();
-  if (supervisor_.watchdog_interval() > Duration::zero() && now >= next_beat_) {
-    next_beat_ = now + supervisor_.watchdog_interval();
-    if (!service_->Hopeless()) supervisor_.Alive();
+// What programs on the board have asked for and the tick cannot answer.
+void Application::RunErrands() {
+  while (const auto errand = service_->NextErrand()) {
+    if (errand->command.code == wire::CommandCode::kReload) {
+      const std::string problems = Reload();
+      service_->Answer(*errand,
+                       problems.empty() ? wire::CommandResult::kOk : wire::CommandResult::kFailed,
+                       0, problems);
+      continue;
+    }
+    const StatusReport report{.service = *service_,
+                              .line = *line_,
+                              .camera_address = camera_address_,
+                              .line_address = line_address_,
+                              .state_folder = config_.neutral.folder.native(),
+                              .storage_problem = storage_problem_,
+                              .stop_problem = latch_.reason(),
+                              .searching_after = observer_.searching_after()};
+    service_->Answer(*errand, wire::CommandResult::kOk, 0, ToJson(report).data());
   }
-  if (now < next_log_) return;
-  next_log_ = now + seconds(1);
-  LogStateChange();
 }
 
-void Application::LogStateChange() {
-  const wire::Status& status = service_->status();
-  std::array<char, 48> damage{};  // said where there is any: a bad cable, a crowded USB bus
-  if (const std::uint64_t pictures = service_->stats().frames_damaged; pictures > 0) {
-    std::snprintf(damage.data(), damage.size(), ", %llu damaged pictures",
-                  static_cast<unsigned long long>(pictures));
-  }
-  std::array<char, 160> text;
-  const int size = std::snprintf(
-      text.data(), text.size(), "%s, %d.%d fps%s, latency %u ms, line %s", Name(service_->state()),
-      status.centi_fps / 100, status.centi_fps / 10 % 10, damage.data(),
-      static_cast<unsigned>(status.latency_p50_us / 1000), line_->connected() ? "up" : "gone");
-  supervisor_.Status({text.data(), static_cast<std::size_t>(size)});
-  if (service_->state() == logged_) return;
-  logged_ = service_->state();
-  Log(text.data());
-}
-
-// Between two ticks. Building may allocate; whatever goes wrong, the old character runs on.
-void Application::Reload() {
+// Between two ticks. Building may allocate; whatever goes wrong, the old character runs on. Answers
+// with every mistake on a line of its own.
+std::string Application::Reload() {
+  std::string problems;
   supervisor_.Reloading(clock_.Now());
   try {
     const Config fresh = LoadConfig(options_.config);
@@ -365,11 +391,15 @@ void Application::Reload() {
     config_.filter = fresh.filter;
     config_.character.rig = fresh.character.rig;
     config_.character.blend = fresh.character.blend;
-    Log("reloaded rig, blend, filter, rates and state times; other changes need a restart");
+    journal_.Write(Event::kReloaded,
+                   "reloaded rig, blend, filter, rates and state times; other changes need a "
+                   "restart");
   } catch (const std::exception& e) {
-    Log((std::string("not reloaded, running on as before: ") + e.what()).c_str());
+    problems = e.what();
+    journal_.Write(Event::kReloadProblem, "not reloaded, running on as before:\n" + problems);
   }
   supervisor_.Ready();
+  return problems;
 }
 
 std::string Application::Summary() const {

@@ -17,9 +17,12 @@
 #include "app/follower.h"
 #include "app/gpio_lines.h"
 #include "app/host_line.h"
+#include "app/journal.h"
+#include "app/observer.h"
 #include "app/profile_file.h"
 #include "app/report.h"
 #include "app/service.h"
+#include "app/stop_latch.h"
 #include "app/supervisor.h"
 #include "core/base/arena.h"
 #include "core/frame_path/frame_path.h"
@@ -47,8 +50,8 @@ class Application {
  public:
   // Reads and checks the configuration, the rig, the profile and the networks, and builds every
   // stage. Touches no device. Throws BadInput with every problem on a line of its own; Failure.
-  // `clock` is borrowed.
-  Application(const ApplicationOptions& options, hal::Clock& clock);
+  // All but the options is borrowed.
+  Application(const ApplicationOptions& options, hal::Clock& clock, Journal& journal);
   Application(const Application&) = delete;
   Application& operator=(const Application&) = delete;
 
@@ -75,14 +78,15 @@ class Application {
   std::filesystem::path NeutralFile() const { return config_.neutral.folder / "performer.neutral"; }
   void TakeStoredNeutral();
   std::string OpenControl();
-  bool KeepNeutral(const retarget::Neutral& neutral) const;
+  std::string KeepNeutral(const retarget::Neutral& neutral) const;
   std::string PersonalSummary() const;
-  void Reload();
-  void Supervise();
-  void LogStateChange();
+  void PrepareStorage();
+  std::string Reload();
+  void RunErrands();
 
   ApplicationOptions options_;
   hal::Clock& clock_;
+  Journal& journal_;
   Config config_;
 
   std::size_t block_bytes_ = 0;
@@ -106,13 +110,13 @@ class Application {
   std::optional<HostLine> line_;
   Control control_;
   GpioLines lines_;
+  std::string storage_problem_;  // why the state folder takes nothing; "": it does
+  StopLatch latch_;
   std::optional<Service> service_;
 
   Supervisor supervisor_;
+  Observer observer_{journal_, supervisor_, latch_};
   Time began_{};
-  Time next_beat_{};
-  Time next_log_{};
-  ServiceState logged_ = ServiceState::kStarting;
 };
 
 }  // namespace facewire::app

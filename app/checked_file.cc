@@ -22,55 +22,62 @@ constexpr std::size_t kMagicBytes = 8;
 constexpr std::size_t kHeaderBytes = kMagicBytes + 8;  // + version + length
 constexpr std::size_t kCrcBytes = 4;
 
+[[noreturn]] void Fail(const std::string& path, const char* what) {
+  throw Failure(path + ": " + what + ": " + std::strerror(errno));
+}
+
 // A file descriptor and the name of a file that goes away unless it is renamed.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const std::filesystem::path& target)
-      : name_(target.string() + ".XXXXXX"), descriptor_(::mkostemp(name_.data(), O_CLOEXEC)) {
+  TemporaryFile(FileCalls& files, const std::filesystem::path& target)
+      : files_(files),
+        name_(target.string() + ".XXXXXX"),
+        descriptor_(files.OpenTemporary(name_.data())) {
     if (descriptor_ < 0) Fail(target.string(), "cannot create it");
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    if (!name_.empty()) ::unlink(name_.c_str());
+    if (descriptor_ >= 0) files_.Close(descriptor_);
+    if (!name_.empty()) files_.Unlink(name_.c_str());
   }
 
   void Write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
-      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+      const ssize_t written = files_.Write(descriptor_, bytes.data(), bytes.size());
       if (written < 0 && errno == EINTR) continue;
       if (written < 0) Fail(name_, "cannot write");
       bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
     // mkostemp makes files that only the owner may read; these files are no secrets.
-    if (::fchmod(descriptor_, S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH) != 0 ||
-        ::fsync(descriptor_) != 0)
+    if (files_.ChangeMode(descriptor_, S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH) != 0 ||
+        files_.Sync(descriptor_) != 0)
       Fail(name_, "cannot write");
   }
 
   void RenameTo(const std::filesystem::path& target) {
-    if (::close(std::exchange(descriptor_, -1)) != 0) Fail(name_, "cannot write");
-    if (::rename(name_.c_str(), target.c_str()) != 0) Fail(target.string(), "cannot replace it");
+    if (files_.Close(std::exchange(descriptor_, -1)) != 0) Fail(name_, "cannot write");
+    if (files_.Rename(name_.c_str(), target.c_str()) != 0)
+      Fail(target.string(), "cannot replace it");
     name_.clear();
   }
 
  private:
-  [[noreturn]] static void Fail(const std::string& path, const char* what) {
-    throw Failure(path + ": " + what + ": " + std::strerror(errno));
-  }
-
+  FileCalls& files_;
   std::string name_;
   int descriptor_;
 };
 
 // The rename itself is only on the disk when the folder is.
-void SyncFolder(const std::filesystem::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+void SyncFolder(FileCalls& files, const std::filesystem::path& folder) {
+  const int descriptor = files.Open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC, 0);
   if (descriptor < 0)
     return;  // a folder that may be written but not read: nothing more can be done
-  ::fsync(descriptor);
-  ::close(descriptor);
+  const bool failed = files.Sync(descriptor) != 0 && errno != EINVAL;  // some keep no folders
+  const int error = errno;
+  files.Close(descriptor);
+  errno = error;
+  if (failed) Fail(folder.string(), "a loss of power may take back what was written");
 }
 
 std::vector<std::byte> ReadWhole(const FileKind& kind, const std::filesystem::path& path) {
@@ -99,11 +106,12 @@ constexpr std::array<std::uint32_t, 256> MakeCrcTable() {
 
 }  // namespace
 
-void WriteFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  TemporaryFile file(path);
+void WriteFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes,
+                         FileCalls& files) {
+  TemporaryFile file(files, path);
   file.Write(bytes);
   file.RenameTo(path);
-  SyncFolder(path.has_parent_path() ? path.parent_path() : ".");
+  SyncFolder(files, path.has_parent_path() ? path.parent_path() : ".");
 }
 
 std::uint32_t Crc32(std::span<const std::byte> bytes) {

@@ -9,12 +9,16 @@
 #include <string_view>
 #include <vector>
 
+#include "app/file_calls.h"
+
 namespace facewire::app {
 
 // Writes the whole file or nothing: to a temporary file in the same folder, flushed to the disk,
 // then renamed over `path`. A reader, or a board that loses power, sees the old file or the new
-// one. Failure: says which step failed and why.
-void WriteFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+// one. Failure: says which step failed and why; the old file is still there, unless it was the last
+// step, which makes the new one outlast a loss of power.
+void WriteFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes,
+                         FileCalls& files = LinuxFiles());
 
 // What distinguishes one kind of facewire's binary files from another.
 struct FileKind {

@@ -107,6 +107,7 @@ void ReadHost(TableReader host, const std::filesystem::path& folder, HostConfig&
   host.Integer("baud", config.baud, 1200, 4'000'000, "baud");
   host.Integer("write_budget_ms", config.write_budget_ms, 0, 20, "ms");
   host.Integer("min_rate_hz", config.min_rate_hz, 20, 240, "Hz");
+  host.Number("stuck_after_s", config.stuck_after_s, {0, 3600, "s"});
   host.Number("describe_every_s", config.describe_every_s, {0, 3600, "s"});
   host.Finish();
 }

@@ -63,6 +63,9 @@ struct HostConfig {
   int baud = 115200;          // of a serial line
   int write_budget_ms = 5;    // a tick waits so long at most for the line to take bytes
   int min_rate_hz = 20;       // poses a second even when the camera is silent
+  // An open line that takes nothing for so long is stuck, which the watchdog ends by a restart. 0:
+  // never (a host that may be off, at a USB gadget's other end).
+  float stuck_after_s = 10;
   float describe_every_s =
       5;  // the rig's description again, for hosts that join later; 0 = on request
 };

@@ -63,17 +63,38 @@ std::optional<Request> Control::Next() noexcept {
   return std::nullopt;
 }
 
-void Control::Answer(Asker asker, const wire::Acknowledgement& answer) noexcept {
+// Null when it has gone.
+Control::Client* Control::Find(Asker asker) noexcept {
   const auto client = std::ranges::find_if(
       clients_, [asker](const Client& c) { return c.fd && c.number == asker; });
-  if (client == clients_.end()) return;
-  std::array<std::byte, wire::kAcknowledgementFrameBytes> out;
-  const auto frame = client->encoder.Encode(answer, out);
+  return client == clients_.end() ? nullptr : &*client;
+}
+
+void Control::Say(Asker asker, std::uint16_t id, std::string_view text) noexcept {
+  while (!text.empty()) {
+    Client* client = Find(asker);
+    if (client == nullptr) return;
+    const std::string_view part = text.substr(0, wire::kMaxTextBytes);
+    wire::Text message{.id = id};
+    if (message.text.try_resize(part.size())) std::ranges::copy(part, message.text.begin());
+    Send(*client, message);
+    text.remove_prefix(part.size());
+  }
+}
+
+void Control::Answer(Asker asker, const wire::Acknowledgement& answer) noexcept {
+  if (Client* client = Find(asker)) Send(*client, answer);
+}
+
+template <class Message>
+void Control::Send(Client& client, const Message& message) noexcept {
+  std::array<std::byte, wire::kTextFrameBytes> out;
+  const auto frame = client.encoder.Encode(message, out);
   if (!frame) return;
   // A frame is far smaller than the socket's buffer: one that does not fit waits behind hundreds
   // that nobody reads.
-  const Result<std::size_t> sent = hal::local::TrySend(client->fd.get(), *frame);
-  if (!sent || *sent < frame->size()) Drop(*client);
+  const Result<std::size_t> sent = hal::local::TrySend(client.fd.get(), *frame);
+  if (!sent || *sent < frame->size()) Drop(client);
 }
 
 }  // namespace facewire::app

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "app/request.h"
 #include "core/wire/decoder.h"
@@ -41,7 +42,8 @@ class Control {
   void Poll() noexcept;
   // The next command of this tick.
   std::optional<Request> Next() noexcept;
-  // To the client, if it is still there.
+  // To the client, if it is still there; `text` in as many parts as it takes.
+  void Say(Asker asker, std::uint16_t id, std::string_view text) noexcept;
   void Answer(Asker asker, const wire::Acknowledgement& answer) noexcept;
 
   const ControlCounters& counters() const noexcept { return counters_; }
@@ -59,6 +61,9 @@ class Control {
   Client& PlaceForNewcomer() noexcept;
   void Read(Client& client) noexcept;
   void Drop(Client& client) noexcept;
+  Client* Find(Asker asker) noexcept;
+  template <class Message>
+  void Send(Client& client, const Message& message) noexcept;
 
   hal::local::LocalListener listener_;
   std::array<Client, kMaxClients> clients_;

@@ -29,6 +29,7 @@ Result<> HostLine::Open() noexcept {
   }
   reopen_.Succeeded();
   open_ = true;
+  taken_ = clock_.Now();
   out_begin_ = out_end_ = 0;
   unread_ = {};
   described_ = 0;
@@ -119,6 +120,10 @@ bool HostLine::Frame(const Message& message) noexcept {
   return true;
 }
 
+Duration HostLine::TakesNothingFor() const noexcept {
+  return open_ ? clock_.Now() - taken_ : Duration{};
+}
+
 // Hands over what the buffer holds. True when it is empty afterwards.
 bool HostLine::Flush(Time deadline) noexcept {
   while (open_ && out_begin_ < out_end_) {
@@ -132,6 +137,7 @@ bool HostLine::Flush(Time deadline) noexcept {
     }
     out_begin_ += *taken;
     counters_.bytes += *taken;
+    if (*taken > 0) taken_ = clock_.Now();
     if (*taken == 0) return false;
   }
   if (!open_) return false;

@@ -56,6 +56,8 @@ class HostLine {
 
   // False while a line that there should be is closed.
   bool connected() const noexcept { return port_ == nullptr || open_; }
+  // For how long an open line has taken no byte (every tick has a pose for it); zero while closed.
+  Duration TakesNothingFor() const noexcept;
   const HostLineCounters& counters() const noexcept { return counters_; }
   const wire::LinkStats& received() const noexcept { return decoder_.stats(); }
 
@@ -73,6 +75,7 @@ class HostLine {
   std::chrono::milliseconds budget_;
   Backoff reopen_;
   bool open_ = false;
+  Time taken_{};  // the line took something at that time, or was opened
 
   const Rig* rig_ = nullptr;
   std::uint32_t rig_id_ = 0;

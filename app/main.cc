@@ -10,6 +10,7 @@
 
 #include "app/application.h"
 #include "app/error.h"
+#include "app/journal.h"
 #include "hal/system_clock.h"
 
 namespace {
@@ -27,7 +28,7 @@ void Handle(int signal, void (*handler)(int)) {
   ::sigaction(signal, &action, nullptr);
 }
 
-int Main(int argc, char** argv) {
+int Main(int argc, char** argv, facewire::app::Journal& journal) {
   facewire::app::ApplicationOptions options;
   bool check = false;
   bool memory = false;
@@ -53,7 +54,7 @@ int Main(int argc, char** argv) {
   }
 
   facewire::hal::SystemClock clock;
-  Application application(options, clock);
+  Application application(options, clock, journal);
   if (check || memory) {
     if (check) std::fputs(application.Summary().c_str(), stdout);
     if (memory) std::fputs(Table(application.Memory()).c_str(), stdout);
@@ -70,20 +71,26 @@ int Main(int argc, char** argv) {
   application.Run(g_requests, facewire::Duration(static_cast<std::int64_t>(seconds * 1e6)));
   const facewire::app::RunReport report = application.Report();
   if (!stats_json.empty()) WriteJson(stats_json, report);
-  std::printf("facewired: %s\n", Summary(report).c_str());
+  // Under systemd both would be the journal.
+  if (journal.structured()) {
+    journal.Write(facewire::app::Event::kEnded, Summary(report));
+  } else {
+    std::printf("facewired: %s\n", Summary(report).c_str());
+  }
   return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  facewire::app::Journal journal;
   try {
-    return Main(argc, argv);
+    return Main(argc, argv, journal);
   } catch (const facewire::app::BadInput& e) {
-    std::fprintf(stderr, "facewired: %s\n", e.what());
+    journal.Write(facewire::app::Event::kBadInput, e.what());
     return 2;
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "facewired: %s\n", e.what());
+    journal.Write(facewire::app::Event::kFailure, e.what());
     return 1;
   }
 }

@@ -50,13 +50,14 @@ retarget::Neutral LoadNeutral(const std::filesystem::path& path) {
   return neutral;
 }
 
-void SaveNeutral(const std::filesystem::path& path, const retarget::Neutral& neutral) {
+void SaveNeutral(const std::filesystem::path& path, const retarget::Neutral& neutral,
+                 FileCalls& files) {
   ByteWriter out;
   out.U32(static_cast<std::uint32_t>(neutral.count));
   for (const float value : neutral.camera_R_head) out.F32(value);
   Write(out, neutral.camera_t_head_cm);
   for (std::size_t i = 0; i < neutral.count; ++i) Write(out, neutral.points_cm[i]);
-  WriteFileAtomically(path, Seal(kNeutral, out.bytes()));
+  WriteFileAtomically(path, Seal(kNeutral, out.bytes()), files);
 }
 
 }  // namespace facewire::app

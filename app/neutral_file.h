@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "app/file_calls.h"
 #include "core/retarget/neutral.h"
 
 namespace facewire::app {
@@ -13,7 +14,8 @@ namespace facewire::app {
 retarget::Neutral LoadNeutral(const std::filesystem::path& path);
 
 // Atomically. Failure: cannot write.
-void SaveNeutral(const std::filesystem::path& path, const retarget::Neutral& neutral);
+void SaveNeutral(const std::filesystem::path& path, const retarget::Neutral& neutral,
+                 FileCalls& files = LinuxFiles());
 
 }  // namespace facewire::app
 

@@ -1,13 +1,19 @@
 #include "app/report.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdio>
-#include <fstream>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
 #include <iomanip>
+#include <span>
 #include <sstream>
 
 #include "app/checked_file.h"
+#include "hal/posix/unique_fd.h"
 
 namespace facewire::app {
 namespace {
@@ -16,6 +22,21 @@ std::string Kib(std::size_t bytes) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(1) << static_cast<double>(bytes) / 1024;
   return text.str();
+}
+
+bool ReadStart(const char* file, std::span<char> text) noexcept {
+  const hal::posix::UniqueFd descriptor(::open(file, O_RDONLY | O_CLOEXEC));
+  return descriptor && ::read(descriptor.get(), text.data(), text.size() - 1) > 0;
+}
+
+// The n'th field of proc(5)'s /proc/self/stat, from 1 and beyond the second; 0: not known.
+std::uint64_t StatField(int n) noexcept {
+  std::array<char, 1024> text{};
+  if (!ReadStart("/proc/self/stat", text)) return 0;
+  // The second field, the program's name, may hold anything but ends at the last bracket.
+  const char* at = std::strrchr(text.data(), ')');
+  for (int field = 2; at != nullptr && field < n; ++field) at = std::strchr(at + 1, ' ');
+  return at == nullptr ? 0 : std::strtoull(at + 1, nullptr, 10);
 }
 
 }  // namespace
@@ -65,12 +86,27 @@ void WriteJson(const std::filesystem::path& file, const RunReport& r) {
   WriteFileAtomically(file, std::as_bytes(std::span(json)));
 }
 
-std::size_t ResidentBytes() {
-  std::ifstream statm("/proc/self/statm");
-  std::size_t pages = 0;
-  std::size_t resident = 0;
-  if (!(statm >> pages >> resident)) return 0;
-  return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+std::size_t ResidentBytes() noexcept {
+  std::array<char, 256> text{};
+  unsigned long long pages = 0;
+  unsigned long long resident = 0;
+  if (!ReadStart("/proc/self/statm", text) ||
+      std::sscanf(text.data(), "%llu %llu", &pages, &resident) != 2) {
+    return 0;
+  }
+  return static_cast<std::size_t>(resident) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+std::size_t ThreadCount() noexcept { return static_cast<std::size_t>(StatField(20)); }
+
+Duration ProcessAge() noexcept {
+  timespec now{};
+  const std::uint64_t ticks = StatField(22);  // from boot, asleep or not
+  if (ticks == 0 || ::clock_gettime(CLOCK_BOOTTIME, &now) != 0) return {};
+  const auto per_second = static_cast<std::uint64_t>(::sysconf(_SC_CLK_TCK));
+  return std::chrono::seconds(now.tv_sec) +
+         std::chrono::duration_cast<Duration>(std::chrono::nanoseconds(now.tv_nsec)) -
+         Duration(static_cast<std::int64_t>(ticks * 1'000'000 / per_second));
 }
 
 }  // namespace facewire::app

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/time.h"
+
 namespace facewire::app {
 
 // What a service holds, part by part.
@@ -51,8 +53,11 @@ std::string Summary(const RunReport& report);
 // half-written is left.
 void WriteJson(const std::filesystem::path& file, const RunReport& report);
 
-// Of this process; 0 when the system does not tell.
-std::size_t ResidentBytes();
+// Of this process; 0 when the system does not tell. Allocate nothing.
+std::size_t ResidentBytes() noexcept;
+std::size_t ThreadCount() noexcept;
+// Since the process was started, which is before its first instruction: the loader's time counts.
+Duration ProcessAge() noexcept;
 
 }  // namespace facewire::app
 

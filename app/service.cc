@@ -34,11 +34,12 @@ Service::Service(const ServiceConfig& config, const ServiceParts& parts,
               .servo_power = parts.servo_power},
              parts.log_panel) {
   started_ = parts_.clock.Now();
-  last_picture_ = started_;
+  last_picture_ = last_fresh_ = started_;
   deadline_ = started_ + period();
   now_ = config_.media_time ? Time{} : started_;
   next_status_ = status_at_ = next_description_ = now_;
   (void)Reload(config, character);  // passed its checks, and there is no neutral yet
+  stop_remembered_ = stop_kept_ = parts_.latch != nullptr && parts_.latch->Engaged();
 }
 
 Result<> Service::Reload(const ServiceConfig& config, Character& character) noexcept {
@@ -55,9 +56,12 @@ Result<> Service::Reload(const ServiceConfig& config, Character& character) noex
   return {};
 }
 
-Result<> Service::UseNeutral(const retarget::Neutral& neutral) noexcept {
+Result<> Service::UseNeutral(const retarget::Neutral& neutral, NeutralKind kind) noexcept {
   const Result<> used = character_->retargeter.SetNeutral(neutral);
-  if (used) neutral_ = neutral;
+  if (used) {
+    neutral_ = neutral;
+    neutral_kind_ = kind;
+  }
   return used;
 }
 
@@ -74,6 +78,7 @@ bool Service::Tick() noexcept {
   const MotionOutput out = motion_.Update(in, wish_);
   if (before == ServiceState::kTracking && out.state == ServiceState::kHolding) ++stats_.losses;
   Send(out);
+  if (out.state == ServiceState::kStopped) RememberStop();
   ++stats_.ticks;
   return !out.finished;
 }
@@ -105,6 +110,8 @@ state::Sight Service::See(const Frame& frame) noexcept {
   now_ = config_.media_time ? frame.captured
                             : std::clamp(frame.captured, acquired_ - kOldestPicture, acquired_);
   pictured_ = true;
+  if (frame.captured != captured_) last_fresh_ = acquired_;
+  captured_ = frame.captured;
   restart_.Succeeded();
   if (last_seq_ && frame.seq > *last_seq_ + 1) stats_.frames_dropped += frame.seq - *last_seq_ - 1;
   last_seq_ = frame.seq;
@@ -163,13 +170,43 @@ void Service::RestartCamera() noexcept {
   restart_.Failed(parts_.clock.Now());
 }
 
-bool Service::Hopeless() const noexcept {
-  return camera_opens_ && !ended_ &&
-         parts_.clock.Now() - last_picture_ > 3 * config_.states.camera_timeout;
+const char* Service::Ailment() const noexcept {
+  const Time clock = parts_.clock.Now();
+  if (camera_opens_ && !ended_ && clock - last_fresh_ > 3 * config_.states.camera_timeout) {
+    return "the camera opens but sends no fresh pictures";
+  }
+  if (config_.line_stuck_after > Duration::zero() &&
+      parts_.line.TakesNothingFor() > config_.line_stuck_after) {
+    return "the line is open but takes no bytes";
+  }
+  return "";
+}
+
+Service::Camera Service::camera() const noexcept {
+  if (!camera_opens_) return Camera::kGone;
+  const Duration silence = parts_.clock.Now() - last_fresh_;
+  return running_ && silence <= config_.states.camera_timeout ? Camera::kUp : Camera::kSilent;
+}
+
+const char* Service::reason() const noexcept {
+  switch (motion_.state()) {
+    case ServiceState::kStopped:
+      return stopped_by_;
+    case ServiceState::kFault:
+      if (!parts_.line.connected()) return "the line to the host is gone";
+      return camera() == Camera::kGone ? "the camera is gone" : "the camera is silent";
+    default:
+      if (quit_) return ended_ ? "the recording is over" : "asked to end";
+      return rest_ ? "asked to rest" : "";
+  }
 }
 
 void Service::ReadCommands(state::Inputs& in) noexcept {
-  in.stop = panel_.ReadStop(now_);
+  in.stop = panel_.ReadStop(now_) || stop_remembered_;
+  if (in.stop) {
+    stopped_by_ = panel_.stop_open() ? "by the stop line" : "remembered from before the start";
+  }
+  stop_remembered_ = false;
   while (const auto command = parts_.line.NextCommand()) Obey({.command = *command}, in);
   if (parts_.control != nullptr) {
     parts_.control->Poll();
@@ -189,6 +226,7 @@ void Service::ReadButton(state::Inputs& in) noexcept {
 void Service::Obey(const Request& request, state::Inputs& in) noexcept {
   ++stats_.commands;
   wire::CommandResult result = wire::CommandResult::kOk;
+  std::string_view why;
   switch (request.command.code) {
     case wire::CommandCode::kPing:
       break;
@@ -210,14 +248,18 @@ void Service::Obey(const Request& request, state::Inputs& in) noexcept {
     case wire::CommandCode::kStop:
       in.stop = true;
       in.release = false;
-      break;
+      stopped_by_ = "by a command";
+      if (stop_) break;  // all of them are one
+      stop_ = request;
+      return;  // answered when nothing moves any more and the latch has it
     case wire::CommandCode::kRelease:
-      if (panel_.stop_open()) {
-        result = wire::CommandResult::kRefused;
-      } else {
-        in.release = true;
-        rest_ = false;
-      }
+      result = Release(in, why);
+      break;
+    case wire::CommandCode::kReport:
+    case wire::CommandCode::kReload:
+      // Texts are for programs on the board: a line is for poses.
+      if (request.asker >= kFirstClient && errands_.try_push(request)) return;
+      result = wire::CommandResult::kRefused;
       break;
     case wire::CommandCode::kBlendProfile: {
       const float part = request.command.value;
@@ -231,10 +273,44 @@ void Service::Obey(const Request& request, state::Inputs& in) noexcept {
     default:
       result = wire::CommandResult::kUnknown;
   }
-  Answer(request, result);
+  Answer(request, result, 0, why);
 }
 
-void Service::Answer(const Request& request, wire::CommandResult result, float measure) noexcept {
+// A stop that could come back by itself, after a crash or at the next boot, is not released.
+wire::CommandResult Service::Release(state::Inputs& in, std::string_view& why) noexcept {
+  if (panel_.stop_open()) return wire::CommandResult::kRefused;
+  if (parts_.latch != nullptr && stop_kept_ && !parts_.latch->Release()) {
+    why = parts_.latch->reason();
+    return wire::CommandResult::kFailed;
+  }
+  stop_kept_ = false;
+  in.release = true;
+  rest_ = false;
+  return wire::CommandResult::kOk;
+}
+
+// After the host has heard of the stop: writing may take its time, nothing moves. A command that
+// stops again has it tried again.
+void Service::RememberStop() noexcept {
+  bool kept = true;
+  if (parts_.latch != nullptr && (!stop_kept_ || stop_)) kept = parts_.latch->Engage();
+  stop_kept_ = true;
+  if (!stop_) return;
+  Answer(*stop_, kept ? wire::CommandResult::kOk : wire::CommandResult::kNotKept, 0,
+         kept ? std::string_view() : parts_.latch->reason());
+  stop_.reset();
+}
+
+std::optional<Request> Service::NextErrand() noexcept {
+  if (errands_.empty()) return std::nullopt;
+  const Request first = errands_[0];
+  std::ranges::copy(errands_.span().subspan(1), errands_.begin());
+  (void)errands_.try_resize(errands_.size() - 1);
+  return first;
+}
+
+void Service::Answer(const Request& request, wire::CommandResult result, float measure,
+                     std::string_view text) noexcept {
   const wire::Acknowledgement answer{.id = request.command.id,
                                      .code = request.command.code,
                                      .result = result,
@@ -245,20 +321,24 @@ void Service::Answer(const Request& request, wire::CommandResult result, float m
   } else if (request.asker == kButton) {
     if (parts_.log_answer) parts_.log_answer(answer);
   } else if (parts_.control != nullptr) {
+    if (!text.empty()) parts_.control->Say(request.asker, request.command.id, text);
     parts_.control->Answer(request.asker, answer);
   }
 }
 
 void Service::EndCalibration() noexcept {
+  std::string why;
   if (outcome_.taken) {
-    const bool used = UseNeutral(outcome_.neutral).has_value();
     // What nobody asked for is provisional and not kept.
-    const bool keep = used && outcome_.request && parts_.keep_neutral;
-    if (!used || (keep && !parts_.keep_neutral(outcome_.neutral))) {
+    if (!UseNeutral(outcome_.neutral, NeutralKind::kProvisional)) {
       outcome_.result = wire::CommandResult::kFailed;
+    } else if (outcome_.request && parts_.keep_neutral) {
+      why = parts_.keep_neutral(outcome_.neutral);
+      neutral_kind_ = why.empty() ? NeutralKind::kKept : NeutralKind::kNotKept;
+      if (!why.empty()) outcome_.result = wire::CommandResult::kNotKept;
     }
   }
-  if (outcome_.request) Answer(*outcome_.request, outcome_.result, outcome_.measure);
+  if (outcome_.request) Answer(*outcome_.request, outcome_.result, outcome_.measure, why);
 }
 
 // The time for the host: in media time, how long the tick has taken is added to the picture's time.

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "app/backoff.h"
 #include "app/calibration.h"
@@ -15,6 +17,8 @@
 #include "app/panel.h"
 #include "app/request.h"
 #include "app/service_stats.h"
+#include "app/stop_latch.h"
+#include "core/base/inline_vector.h"
 #include "core/frame_path/motion.h"
 #include "core/retarget/neutral.h"
 #include "hal/camera.h"
@@ -29,6 +33,7 @@ struct ServiceConfig {
   int min_rate_hz = 20;                               // ticks a second without pictures
   Duration describe_every = std::chrono::seconds(5);  // 0: on request only
   Duration status_every = std::chrono::seconds(1);
+  Duration line_stuck_after = std::chrono::seconds(10);  // takes nothing for so long; 0: never
   // The camera is a recording played as fast as possible: its frames' times are the time, and
   // nothing waits.
   bool media_time = false;
@@ -48,8 +53,10 @@ struct ServiceParts {
   hal::GpioInput* calibrate = nullptr;
   hal::GpioOutput* status_led = nullptr;
   hal::GpioOutput* servo_power = nullptr;
-  // Keeps a neutral that a command took, across boots. False: it could not be kept.
-  std::function<bool(const retarget::Neutral&)> keep_neutral = {};
+  // Keeps a neutral that a command took, across boots. Why it could not be kept; "" when it is.
+  std::function<std::string(const retarget::Neutral&)> keep_neutral = {};
+  // Remembers an emergency stop across crashes and boots; null: none does.
+  StopLatch* latch = nullptr;
   // Hears what became of a press of the button, which has nobody else to tell.
   std::function<void(const wire::Acknowledgement&)> log_answer = {};
   // As Panel's.
@@ -58,14 +65,17 @@ struct ServiceParts {
 
 // The running service: one thread, one tick after the other. A tick is a picture when there is one
 // in time, else silence; either way the host gets a pose. Allocates nothing after construction, but
-// where a broken device is opened again or a commanded neutral is stored.
+// where a broken device is opened again, or a commanded neutral or an emergency stop is stored.
 class Service {
  public:
+  // The performer's face at rest, and what became of it.
+  enum class NeutralKind : std::uint8_t { kNone, kProvisional, kNotKept, kKept };
   // Runs `character` from its neutral pose. The character must have passed its checks.
   Service(const ServiceConfig& config, const ServiceParts& parts, Character& character) noexcept;
 
   // The performer's neutral that was kept. Errors as Retargeter::SetNeutral.
-  Result<> UseNeutral(const retarget::Neutral& neutral) noexcept;
+  Result<> UseNeutral(const retarget::Neutral& neutral,
+                      NeutralKind kind = NeutralKind::kKept) noexcept;
   // Takes one by itself from the first calm seconds of a face.
   void TakeNeutralByItself() noexcept { calibration_.BeginByItself(); }
 
@@ -80,10 +90,23 @@ class Service {
   // False: finished.
   bool Tick() noexcept;
 
-  // Whether only a restart of the process might still help: the camera opens, but has been silent
-  // for three times its time-out although it was restarted. (A camera or a line that is unplugged
-  // is known, and tried again.)
-  bool Hopeless() const noexcept;
+  // What only a restart of the process might still help; "" when nothing is wrong in that way. The
+  // camera opens, but no fresh picture has come for three times its time-out although it was
+  // restarted; or the line is open, but has taken no byte for too long. (A camera or a line that is
+  // unplugged is known, and tried again.)
+  const char* Ailment() const noexcept;
+  // Why the state is what it is, where the state alone does not say; "" else.
+  const char* reason() const noexcept;
+  enum class Camera : std::uint8_t { kUp, kSilent, kGone };
+  Camera camera() const noexcept;
+  NeutralKind neutral_kind() const noexcept { return neutral_kind_; }
+
+  // The next command that this tick leaves to the service's owner, who answers it: report, reload.
+  std::optional<Request> NextErrand() noexcept;
+  // `text` goes before the answer, to a client of the control socket.
+  void Answer(const Request& request, wire::CommandResult result, float measure = 0,
+              std::string_view text = {}) noexcept;
+
   Time now() const noexcept { return now_; }
   ServiceState state() const noexcept { return motion_.state(); }
   const ServiceStats& stats() const noexcept { return stats_; }
@@ -99,7 +122,8 @@ class Service {
   void ReadCommands(state::Inputs& in) noexcept;
   void ReadButton(state::Inputs& in) noexcept;
   void Obey(const Request& request, state::Inputs& in) noexcept;
-  void Answer(const Request& request, wire::CommandResult result, float measure = 0) noexcept;
+  wire::CommandResult Release(state::Inputs& in, std::string_view& why) noexcept;
+  void RememberStop() noexcept;
   void EndCalibration() noexcept;
   void Send(const MotionOutput& out) noexcept;
   bool StatusDue() noexcept;
@@ -113,6 +137,7 @@ class Service {
   Calibration calibration_;
   Calibration::Outcome outcome_;
   std::optional<retarget::Neutral> neutral_;
+  NeutralKind neutral_kind_ = NeutralKind::kNone;
 
   bool running_ = true;        // the camera
   bool camera_opens_ = true;   // at the last try
@@ -121,6 +146,8 @@ class Service {
   Backoff restart_;
   std::optional<std::uint64_t> last_seq_;
   Time last_picture_{};    // by the clock
+  Time last_fresh_{};      // by the clock, a picture that was not the one before
+  Time captured_{};        // of that one
   Time acquired_{};        // the tick's picture, by the clock
   Time deadline_{};        // of the next tick, by the clock: absolute, so ticks do not drift
   Time now_{};             // of the tick
@@ -130,6 +157,11 @@ class Service {
   bool quit_ = false;
   bool rest_ = false;
   Panel panel_;
+  bool stop_remembered_ = false;  // from before the start; counts for the first tick
+  bool stop_kept_ = false;        // the latch was asked to remember the present stop
+  std::optional<Request> stop_;   // is answered when the latch has it
+  const char* stopped_by_ = "";
+  InlineVector<Request, 8> errands_;
   std::optional<std::size_t> blink_left_, blink_right_;
 
   Time started_{};

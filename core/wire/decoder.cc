@@ -149,6 +149,14 @@ Command ReadCommand(Reader& r) noexcept {
   return m;
 }
 
+Text ReadText(Reader& r) noexcept {
+  Text m;
+  m.id = r.Integer<std::uint16_t>();
+  r.Require(m.text.try_resize(r.Integer<std::uint16_t>()));
+  for (char& c : m.text) c = static_cast<char>(r.Integer<std::uint8_t>());
+  return m;
+}
+
 Result<Message> ReadPayload(std::uint8_t type, std::span<const byte> payload) noexcept {
   Reader r(payload);
   const auto checked = [&r](const auto& message) -> Result<Message> {
@@ -170,6 +178,8 @@ Result<Message> ReadPayload(std::uint8_t type, std::span<const byte> payload) no
       return checked(ReadAcknowledgement(r));
     case MessageType::kCommand:
       return checked(ReadCommand(r));
+    case MessageType::kText:
+      return checked(ReadText(r));
   }
   return Errc::kUnsupported;
 }

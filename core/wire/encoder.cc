@@ -187,6 +187,14 @@ Result<std::span<const byte>> Encoder::Encode(const Command& m, std::span<byte> 
   return Finish(w);
 }
 
+Result<std::span<const byte>> Encoder::Encode(const Text& m, std::span<byte> out) noexcept {
+  Writer w(out, MessageType::kText, sequence_);
+  w.Integer(m.id);
+  w.Integer(static_cast<std::uint16_t>(m.text.size()));
+  for (const char c : m.text) w.Integer(static_cast<std::uint8_t>(c));
+  return Finish(w);
+}
+
 Result<std::span<const byte>> Encoder::Encode(const Message& message,
                                               std::span<byte> out) noexcept {
   return std::visit([&](const auto& m) noexcept { return Encode(m, out); }, message);

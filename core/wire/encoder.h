@@ -28,6 +28,7 @@ class Encoder {
   Result<std::span<const std::byte>> Encode(const Acknowledgement&,
                                             std::span<std::byte> out) noexcept;
   Result<std::span<const std::byte>> Encode(const Command&, std::span<std::byte> out) noexcept;
+  Result<std::span<const std::byte>> Encode(const Text&, std::span<std::byte> out) noexcept;
   // Whichever the message is.
   Result<std::span<const std::byte>> Encode(const Message&, std::span<std::byte> out) noexcept;
 

@@ -18,6 +18,10 @@ const char* Name(CommandCode code) noexcept {
       return "release";
     case CommandCode::kBlendProfile:
       return "blend_profile";
+    case CommandCode::kReport:
+      return "report";
+    case CommandCode::kReload:
+      return "reload";
   }
   return "unknown";
 }
@@ -44,6 +48,8 @@ const char* Name(CommandResult result) noexcept {
       return "eyes_closed";
     case CommandResult::kMouthOpen:
       return "mouth_open";
+    case CommandResult::kNotKept:
+      return "not_kept";
   }
   return "failed";
 }

@@ -25,6 +25,7 @@ enum class MessageType : std::uint8_t {
   kPose = 0x10,
   kStatus = 0x11,
   kAcknowledgement = 0x12,
+  kText = 0x13,
   kCommand = 0x80,
 };
 
@@ -92,6 +93,8 @@ enum class CommandCode : std::uint8_t {
   kStop = 5,              // emergency stop, latched until kRelease
   kRelease = 6,           // end a stop or a rest that a command began
   kBlendProfile = 7,      // value: the part of the personal profile, 0..1
+  kReport = 8,            // how the service fares, as Text; on the control socket alone, as is
+  kReload = 9,            // read the configuration again; Text says what is wrong with it
 };
 
 struct Command {
@@ -101,7 +104,7 @@ struct Command {
 };
 constexpr bool TakesValue(CommandCode code) noexcept { return code == CommandCode::kBlendProfile; }
 
-// The numbers are those of the wire: append only; everything but kOk is a failure.
+// The numbers are those of the wire: append only; one that is not named here is a failure.
 enum class CommandResult : std::uint8_t {
   kOk = 0,
   kUnknown = 1,  // this device does not know the command
@@ -115,7 +118,14 @@ enum class CommandResult : std::uint8_t {
   kFaceMoved = 7,   // cm
   kEyesClosed = 8,  // a blink, or throughout; how far they closed, 0..1
   kMouthOpen = 9,   // the lips' gap as a part of the mouth's width
+  // Done, but only until the device starts again: it cannot write where it keeps things. Not a
+  // failure either.
+  kNotKept = 10,
 };
+// Whether what was asked for is done.
+constexpr bool Succeeded(CommandResult result) noexcept {
+  return result == CommandResult::kOk || result == CommandResult::kNotKept;
+}
 constexpr bool HasMeasure(CommandResult result) noexcept {
   return result >= CommandResult::kHeadTurned && result <= CommandResult::kMouthOpen;
 }
@@ -128,8 +138,16 @@ struct Acknowledgement {
   float measure = 0;  // on the wire only where HasMeasure(result)
 };
 
+// Part of what an answer says in words; the acknowledgement with the same id comes after the last
+// part. The whole is UTF-8, lines that end with '\n'.
+inline constexpr std::size_t kMaxTextBytes = 480;
+struct Text {
+  std::uint16_t id = 0;  // of the command
+  InlineVector<char, kMaxTextBytes> text{};
+};
+
 using Message = std::variant<RigHeader, BoneDescription, ChannelDescription, Pose, Status,
-                             Acknowledgement, Command>;
+                             Acknowledgement, Command, Text>;
 static_assert(std::is_trivially_copyable_v<Message>);
 
 const char* Name(CommandCode code) noexcept;      // "calibrate_neutral"; "unknown" for a later one
@@ -152,6 +170,7 @@ inline constexpr std::size_t kStatusPayloadBytes = 43;
 // With the value or measure that some have.
 inline constexpr std::size_t kMaxAcknowledgementPayloadBytes = 12 + 4;
 inline constexpr std::size_t kMaxCommandPayloadBytes = 3 + 4;
+inline constexpr std::size_t kMaxTextPayloadBytes = 4 + kMaxTextBytes;
 // Buffers of these sizes always suffice for the message.
 inline constexpr std::size_t kMaxDescriptionFrameBytes = MaxFrameBytes(kMaxDescriptionPayloadBytes);
 inline constexpr std::size_t kMaxPoseFrameBytes = MaxFrameBytes(PosePayloadBytes(kMaxChannels));
@@ -159,6 +178,7 @@ inline constexpr std::size_t kStatusFrameBytes = MaxFrameBytes(kStatusPayloadByt
 inline constexpr std::size_t kAcknowledgementFrameBytes =
     MaxFrameBytes(kMaxAcknowledgementPayloadBytes);
 inline constexpr std::size_t kCommandFrameBytes = MaxFrameBytes(kMaxCommandPayloadBytes);
+inline constexpr std::size_t kTextFrameBytes = MaxFrameBytes(kMaxTextPayloadBytes);
 inline constexpr std::size_t kMaxFrameBytes = MaxFrameBytes(kMaxPayloadBytes);  // of any message
 static_assert(PosePayloadBytes(kMaxChannels) <= kMaxPayloadBytes);
 

@@ -13,6 +13,14 @@
 #include "hal/posix/errors.h"
 
 namespace facewire::hal::v4l2 {
+namespace {
+
+// A camera that has been pulled out is closed only after this while. Its driver wakes us before it
+// has taken everything down, and Linux crashes when the last close comes in between (6.1 does:
+// media_device_unregister_entity reads the media device twice, without a lock the first time).
+constexpr std::chrono::milliseconds kTakeDown{250};
+
+}  // namespace
 
 V4l2Camera::V4l2Camera(V4l2Config config, Clock& clock, SystemCalls& calls)
     : config_(std::move(config)), clock_(clock), calls_(calls) {}
@@ -163,6 +171,7 @@ Result<Frame> V4l2Camera::Acquire(std::chrono::milliseconds timeout) {
     if (frame) return frame;
     if (frame.error() == Errc::kDisconnected) {
       Fail(Errc::kDisconnected, "the camera has gone");
+      clock_.SleepUntil(clock_.Now() + kTakeDown);
       Stop();
     }
     // Interrupted, or only damaged frames so far. A deadline that has passed ends it here too,

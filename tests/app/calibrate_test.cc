@@ -47,7 +47,11 @@ class Stage : public ServiceContext {
                      .follower = follower,
                      .capture = capture,
                      .control = &control,
-                     .keep_neutral = [this](const retarget::Neutral&) { return ++kept > 0; }},
+                     .keep_neutral =
+                         [this](const retarget::Neutral&) {
+                           ++kept;
+                           return why_not_kept;
+                         }},
                     character);
     follower.failure = Errc::kNoFace;
     for (int i = 0; i < 20; ++i) running.Tick();

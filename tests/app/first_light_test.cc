@@ -110,7 +110,8 @@ class FirstLight : public testing::Test {
                                        // Nothing may be lost, so wait for the host if need be.
                                        "\n[host]\nline = \"pty:line\"\nwrite_budget_ms = 20\n");
     hal::SystemClock clock;
-    Application application({.config = scratch / "facewire.toml", .fake = true}, clock);
+    Journal journal;
+    Application application({.config = scratch / "facewire.toml", .fake = true}, clock, journal);
     application.Open();
     hal::pty::PtyPort line((scratch / "line").string());
     ASSERT_TRUE(line.Open());

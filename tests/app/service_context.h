@@ -109,8 +109,9 @@ class ServiceContext {
             .keep_neutral =
                 [this](const retarget::Neutral&) {
                   ++kept;
-                  return keeps;
+                  return why_not_kept;
                 },
+            .latch = &latch,
             .log_answer = [this](const wire::Acknowledgement& answer) { logged.push_back(answer); },
             .log_panel = [this](const char* text) { said.emplace_back(text); }},
         character);
@@ -176,7 +177,8 @@ class ServiceContext {
   std::optional<Service> service;
   bool alive = true;
   int kept = 0;
-  bool keeps = true;
+  std::string why_not_kept;
+  StopLatch latch{{}};               // remembers nothing, unless a test gives another
   retarget::ExampleMapping profile;  // not used before GivePersonalProfile
   std::vector<wire::Acknowledgement> logged;
   std::vector<std::string> said;  // of the panel

@@ -46,6 +46,7 @@ wire::Acknowledgement CommandClient::Ask(wire::Command command, Duration timeout
     heard = Await(ping.id, std::min<Time>(clock_.Now() + kPingEvery, until)).has_value();
   }
   command.id = ++last_id_;
+  text_.clear();
   Send(command);
   const auto answer = Await(command.id, until);
   if (answer) return *answer;
@@ -79,6 +80,8 @@ std::optional<wire::Acknowledgement> CommandClient::Await(std::uint16_t id, Time
       if (!received) continue;
       const auto* heard = std::get_if<wire::Acknowledgement>(&received->message);
       if (heard != nullptr && heard->id == id) answer = *heard;
+      const auto* words = std::get_if<wire::Text>(&received->message);
+      if (words != nullptr && words->id == id) text_.append(words->text.begin(), words->text.end());
     }
   }
   return answer;

@@ -24,6 +24,8 @@ class CommandClient {
   // command that was heard twice might be done twice. Throws Failure when nothing answers within
   // `timeout`, or the line is lost.
   wire::Acknowledgement Ask(wire::Command command, Duration timeout);
+  // What the last answer said in words besides; usually nothing.
+  const std::string& text() const { return text_; }
 
  private:
   void Send(const wire::Command& command);
@@ -36,6 +38,7 @@ class CommandClient {
   wire::Encoder encoder_;
   wire::Decoder decoder_;
   std::uint16_t last_id_;
+  std::string text_;
 };
 
 }  // namespace facewire::tools

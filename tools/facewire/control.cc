@@ -1,5 +1,8 @@
 // Commands to a running service.
 
+#include <grp.h>
+#include <sys/stat.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
@@ -11,6 +14,7 @@
 #include "hal/system_clock.h"
 #include "tools/facewire/command_client.h"
 #include "tools/facewire/commands.h"
+#include "tools/facewire/report_text.h"
 
 namespace facewire::tools {
 namespace {
@@ -20,7 +24,16 @@ struct ControlOptions {
   int baud = 115200;
   double timeout_s = 5;
   double percent = 0;
+  bool json = false;
 };
+
+// The group that the service's socket belongs to; the folder may hide it, but then it is the usual
+// one.
+std::string GroupOf(const std::string& path) {
+  struct stat node {};
+  const group* entry = ::stat(path.c_str(), &node) == 0 ? ::getgrgid(node.st_gid) : nullptr;
+  return entry == nullptr ? "facewire" : entry->gr_name;
+}
 
 // One wherever the service is: its socket on this machine, or a device at the end of a line.
 std::unique_ptr<hal::SerialPort> OpenService(const ControlOptions& options) {
@@ -33,21 +46,52 @@ std::unique_ptr<hal::SerialPort> OpenService(const ControlOptions& options) {
   }
   if (opened.error() == Errc::kPermission) {
     throw app::BadInput("no permission for " + options.where +
-                        "; its group may use it: sudo usermod -aG GROUP $USER, with the group "
-                        "that `ls -l` shows");
+                        "; add yourself to its group: sudo usermod -aG " + GroupOf(options.where) +
+                        " $USER, then log in again");
   }
   throw app::BadInput(app::DescribeSerialError(opened.error(), options.where, options.baud));
 }
 
-void Give(const wire::Command& command, const ControlOptions& options) {
+struct Answered {
+  wire::Acknowledgement answer;
+  std::string text;  // what the service says besides, lines
+};
+
+Answered Ask(const wire::Command& command, const ControlOptions& options) {
   const auto port = OpenService(options);
   hal::SystemClock clock;
   CommandClient client(options.where, *port, clock);
   const wire::Acknowledgement answer =
       client.Ask(command, Duration(static_cast<std::int64_t>(1e6 * options.timeout_s)));
-  const std::string text = app::AnswerText(answer).data();
-  if (answer.result != wire::CommandResult::kOk) throw app::Failure(text);
+  return {answer, client.text()};
+}
+
+// The answer's sentence, and the service's own words behind or, when they are several lines, below
+// it.
+std::string Sentence(const Answered& answered) {
+  const std::string sentence = app::AnswerText(answered.answer).data();
+  if (answered.text.empty()) return sentence;
+  const bool lines = answered.text.find('\n') != std::string::npos;
+  return sentence + (lines ? ":\n" : ": ") + answered.text;
+}
+
+void Give(const wire::Command& command, const ControlOptions& options) {
+  const Answered answered = Ask(command, options);
+  const std::string text = Sentence(answered);
+  if (!Succeeded(answered.answer.result)) throw app::Failure(text);
   std::printf("%s\n", text.c_str());
+}
+
+void Status(const ControlOptions& options) {
+  const Answered answered = Ask({.code = wire::CommandCode::kReport}, options);
+  if (!Succeeded(answered.answer.result)) throw app::Failure(Sentence(answered));
+  if (options.json) {
+    std::printf("%s\n", answered.text.c_str());
+    return;
+  }
+  const auto report = ReportText(answered.text);
+  if (!report) throw app::Failure(options.where + ": its report is not understood; see --json");
+  std::fputs(report->c_str(), stdout);
 }
 
 // What every one of these commands has.
@@ -94,6 +138,37 @@ void AddBlend(CLI::App& facewire) {
           .value = static_cast<float>(options->percent / 100)},
          *options);
   });
+}
+
+namespace {
+
+// A verb that is one command and its answer.
+void AddVerb(CLI::App& facewire, const char* name, const char* help, wire::CommandCode code) {
+  auto options = std::make_shared<ControlOptions>();
+  CLI::App* command = facewire.add_subcommand(name, help);
+  AddControlOptions(*command, *options);
+  command->callback([options, code] { Give({.code = code}, *options); });
+}
+
+}  // namespace
+
+void AddStatus(CLI::App& facewire) {
+  auto options = std::make_shared<ControlOptions>();
+  CLI::App* command = facewire.add_subcommand("status", "Show how the running service fares");
+  command->add_flag("--json", options->json, "One JSON object, for programs");
+  AddControlOptions(*command, *options);
+  command->callback([options] { Status(*options); });
+}
+
+void AddService(CLI::App& facewire) {
+  AddVerb(facewire, "neutral", "Have the running service ease to neutral and stay there",
+          wire::CommandCode::kRest);
+  AddVerb(facewire, "stop", "Emergency stop: nothing moves, over restarts too, until release",
+          wire::CommandCode::kStop);
+  AddVerb(facewire, "release", "End a stop, or a neutral that was asked for",
+          wire::CommandCode::kRelease);
+  AddVerb(facewire, "reload", "Have the running service read its configuration again",
+          wire::CommandCode::kReload);
 }
 
 }  // namespace facewire::tools

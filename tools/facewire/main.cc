@@ -22,13 +22,15 @@ void AddCommands(CLI::App& facewire) {
                                     // else
   AddTrack(facewire);
   AddRetarget(facewire);
-  AddNeutral(facewire);
+  AddNeutralOf(facewire);
   AddRecord(facewire);
   AddPick(facewire);
   AddTrain(facewire);
   AddMonitor(facewire);
   AddCalibrate(facewire);
   AddBlend(facewire);
+  AddStatus(facewire);
+  AddService(facewire);
   AddSheet(facewire);
   AddDoctor(facewire);
 }

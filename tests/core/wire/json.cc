@@ -82,6 +82,10 @@ struct AddFields {
     o.Int("result", static_cast<int>(m.result)).At("now_us", m.now);
     if (HasMeasure(m.result)) o.Float("measure", m.measure);
   }
+  void operator()(const Text& m) const {
+    o.Text("type", "text").Int("id", m.id);
+    o.Text("text", {m.text.begin(), m.text.size()});
+  }
   void operator()(const Command& m) const {
     o.Text("type", "command").Int("id", m.id).Int("code", static_cast<int>(m.code));
     if (TakesValue(m.code)) o.Float("value", m.value);

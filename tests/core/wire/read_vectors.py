@@ -15,7 +15,7 @@ import sys
 import zlib
 
 MAX_INSIDE = 1024  # header, payload and CRC
-MAX_BONES, MAX_CHANNELS, MAX_NAME = 80, 240, 31
+MAX_BONES, MAX_CHANNELS, MAX_NAME, MAX_TEXT = 80, 240, 31, 480
 KINDS = ["parameter", "position_x", "position_y", "position_z", "pitch", "yaw", "roll"]
 FAULT = 7
 CODES_WITH_VALUE = {7}
@@ -106,8 +106,16 @@ def read_command(p):
     return {"type": "command", **message}
 
 
+def read_text(p):
+    ident, size = p.take("HH")
+    require(size <= MAX_TEXT and size <= len(p.data))
+    text, p.data = p.data[:size], p.data[size:]
+    return {"type": "text", "id": ident, "text": text.decode("utf-8")}
+
+
 READERS = {0x01: read_rig_header, 0x02: read_bone, 0x03: read_channel, 0x10: read_pose,
-           0x11: read_status, 0x12: read_acknowledgement, 0x80: read_command}
+           0x11: read_status, 0x12: read_acknowledgement, 0x13: read_text,
+           0x80: read_command}
 
 
 def cobs_decode(piece):

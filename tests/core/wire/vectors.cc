@@ -1,7 +1,10 @@
 #include "tests/core/wire/vectors.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <string>
+#include <string_view>
 
 #include "core/wire/encoder.h"
 #include "core/wire/pose.h"
@@ -43,6 +46,13 @@ Pose RampPose(std::size_t channels) {
     pose.values[i] = static_cast<std::uint16_t>(i * 65535 / (channels - 1));
   }
   return pose;
+}
+
+Text SomeText(std::string_view words) {
+  Text text{.id = 9};
+  (void)text.text.try_resize(words.size());
+  std::ranges::copy(words, text.text.begin());
+  return text;
 }
 
 Message Ping(int id) {
@@ -168,6 +178,16 @@ void AddMessages(std::vector<Vector>& all) {
                       .measure = 8.25F});
   add("command_value", "Three quarters of the personal profile",
       Command{.id = 7, .code = CommandCode::kBlendProfile, .value = 0.75F});
+  add("acknowledgement_not_kept", "A calibration that lasts until the device starts again",
+      Acknowledgement{.id = 515,
+                      .code = CommandCode::kCalibrateNeutral,
+                      .result = CommandResult::kNotKept,
+                      .now = Time(Duration(7'000'000))});
+  add("text", "Words of an answer", SomeText("no signal \"noSuchSignal\""));
+  add("text_empty", "A text without words", SomeText(""));
+  add("text_full", "The longest text", SomeText(std::string(kMaxTextBytes, 'x')));
+  add("command_reload", "Read the configuration again",
+      Command{.id = 9, .code = CommandCode::kReload});
   Line host;
   Bytes commands;
   for (int code = 1; code <= 6; ++code) {
@@ -291,6 +311,10 @@ void AddDamage(std::vector<Vector>& all) {
     add(name, about, RawFrame(kVersion, type, 0, payload));
   };
   malformed("malformed_short", "A command without its code", 0x80, MakeBytes({1, 0}));
+  malformed("malformed_text", "A text that promises four bytes and holds three", 0x13,
+            MakeBytes({1, 0, 4, 0, 65, 66, 67}));
+  malformed("malformed_text_long", "A text that promises more than a text may hold", 0x13,
+            MakeBytes({1, 0, 0xE1, 1}) + Bytes(481, std::byte{65}));
   malformed("malformed_value", "A blend without its value", 0x80, MakeBytes({1, 0, 7}));
   malformed("malformed_value_nan", "A blend that is not a number", 0x80,
             MakeBytes({1, 0, 7, 0, 0, 0xC0, 0x7F}));

@@ -26,7 +26,7 @@ TEST(FacewireCli, HelpsAndTellsItsVersion) {
   EXPECT_EQ(help.code, 0);
   EXPECT_THAT(RunFacewire({"--version"}).out, StartsWith("facewire "));
   for (const char* command :
-       {"track", "record", "pick", "retarget", "neutral", "train", "monitor", "sheet", "doctor"}) {
+       {"track", "record", "pick", "retarget", "neutral-of", "train", "monitor", "sheet", "doctor"}) {
     EXPECT_THAT(help.out, HasSubstr(command));
     const Outcome own = RunFacewire({command, "--help"});
     EXPECT_EQ(own.code, 0) << command;
@@ -88,7 +88,7 @@ TEST(FacewireCli, AnswersBadInputWithOneLineAndExitCode2) {
       {{"retarget", no_video, "--rig", rig, "--profile", no_video, "--out", out}, "no_video.mp4"},
       {{"retarget", "v4l2:/dev/video0", "--rig", rig, "--out", out}, "takes a recording"},
       {{"sheet", markers, "--video", no_video, "--rig", rig, "--out", out}, "not a recording"},
-      {{"neutral", no_video, "--frames", "x", "--out", out}, "--frames x"},
+      {{"neutral-of", no_video, "--frames", "x", "--out", out}, "--frames x"},
   };
   const std::size_t files = scratch.Files();
   for (const Case& bad : cases) {

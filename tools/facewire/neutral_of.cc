@@ -33,10 +33,10 @@ void Neutral(const NeutralOptions& options) {
 
 }  // namespace
 
-void AddNeutral(CLI::App& facewire) {
+void AddNeutralOf(CLI::App& facewire) {
   auto options = std::make_shared<NeutralOptions>();
   CLI::App* command = facewire.add_subcommand(
-      "neutral", "Take a performer's face at rest from a video, for facewired");
+      "neutral-of", "Take a performer's face at rest from a video, for facewired");
   command->add_option("INPUT", options->face.input, "A video file")->required();
   command->add_option("--frames", options->frames,
                       "A:B, the median of frames A to B-1; else of the first two seconds");

@@ -1,0 +1,103 @@
+#include "tools/facewire/report_text.h"
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <map>
+
+#include "tools/facewire/json_reader.h"
+
+namespace facewire::tools {
+namespace {
+
+using Members = std::map<std::string, std::string, std::less<>>;
+
+std::string Unescaped(std::string_view text) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\\' && i + 1 < text.size()) ++i;
+    plain += text[i];
+  }
+  return plain;
+}
+
+std::string Shown(double number) {
+  std::array<char, 40> text;
+  (void)std::snprintf(text.data(), text.size(), "%.10g", number);
+  return text.data();
+}
+
+std::optional<Members> Read(std::string_view text) {
+  json::Reader reader(text);
+  Members members;
+  if (!reader.Take('{')) return std::nullopt;
+  do {
+    const auto key = reader.String();
+    if (!key || !reader.Take(':')) return std::nullopt;
+    if (const auto number = reader.Number()) {
+      members.emplace(*key, Shown(*number));
+    } else if (const auto words = reader.String()) {
+      members.emplace(*key, Unescaped(*words));
+    } else if (!reader.Skip()) {
+      return std::nullopt;
+    }
+  } while (reader.Take(','));
+  if (!reader.Take('}') || !reader.AtEnd()) return std::nullopt;
+  return members;
+}
+
+// "1 h 5 min", "5 min 3 s", "3 s"
+std::string TimeText(const std::string& seconds) {
+  const auto s = std::strtoull(seconds.c_str(), nullptr, 10);
+  if (s >= 3600) return std::to_string(s / 3600) + " h " + std::to_string(s / 60 % 60) + " min";
+  if (s >= 60) return std::to_string(s / 60) + " min " + std::to_string(s % 60) + " s";
+  return std::to_string(s) + " s";
+}
+
+}  // namespace
+
+std::optional<std::string> ReportText(std::string_view json) {
+  const auto members = Read(json);
+  if (!members) return std::nullopt;
+  const auto get = [&](std::string_view key) -> std::string {
+    const auto found = members->find(key);
+    return found == members->end() ? "?" : found->second;
+  };
+  const auto after = [&](const char* mark, std::string_view key) -> std::string {
+    const std::string words = get(key);
+    return words.empty() || words == "?" ? "" : mark + words;
+  };
+  std::string text = get("state") + after(": ", "reason") + "\n";
+  if (const std::string ailment = after("", "ailment"); !ailment.empty()) {
+    text += "ill      " + ailment + "; the watchdog is no longer fed\n";
+  }
+  text += "camera   " + get("camera") + ": " + get("camera_state") + ", " + get("fps") +
+          " frames a second, " + get("frames") + " in all, " + get("frames_dropped") +
+          " dropped, " + get("camera_restarts") + " restarts\n";
+  text += "latency  " + get("latency_p50_ms") + " ms, 99 %: " + get("latency_p99_ms") + " ms\n";
+  if (get("line_state") == "none") {
+    text += "line     none\n";
+  } else {
+    text += "line     " + get("line") + ": " + get("line_state") + ", " + get("poses_sent") +
+            " poses, " + get("poses_dropped") + " not taken, " + get("line_errors") +
+            " errors, lost " + get("line_losses") + " times\n";
+  }
+  text += "face     lost " + get("losses") + " times\n";
+  text += "neutral  " + get("neutral") + ", in " + get("state_folder") + "\n";
+  if (const std::string problem = after("", "storage_problem"); !problem.empty()) {
+    text += "storage  nothing outlasts a loss of power: " + problem + "\n";
+  }
+  if (const std::string problem = after("", "stop_problem"); !problem.empty()) {
+    text += "stop     " + problem + "\n";
+  }
+  const double mib = std::strtod(get("resident_bytes").c_str(), nullptr) / (1024 * 1024);
+  std::array<char, 32> memory;
+  (void)std::snprintf(memory.data(), memory.size(), "%.1f MiB", mib);
+  text += "process  up " + TimeText(get("uptime_s")) + ", " + memory.data() + ", " +
+          get("threads") + " threads, searching after " + get("searching_after_s") +
+          " s, facewired " + get("version") + "\n";
+  return text;
+}
+
+}  // namespace facewire::tools
