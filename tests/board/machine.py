@@ -114,6 +114,11 @@ class Machine:
             self.power_cut()
             raise
 
+    def wait_until_up(self, timeout):
+        """Until the guest agent has opened its line and answers."""
+        self.monitor.wait_for_event("VSERPORT_CHANGE", timeout)
+        self.agent.greet(60)
+
     def _ended(self):
         if self._qemu.poll() is not None:
             raise RuntimeError(f"QEMU ended at once: {pathlib.Path(self._log.name).read_text().strip()}")
@@ -125,7 +130,7 @@ class Machine:
         at = self.folder
         return [
             "qemu-system-aarch64", "-M", "virt", "-cpu", "cortex-a72", "-smp", "2", "-m", "2048",
-            "-icount", "shift=0", "-nodefaults", "-display", "none", "-no-reboot",
+            "-accel", "tcg,thread=multi", "-nodefaults", "-display", "none", "-no-reboot",
             "-kernel", self.parts / "vmlinuz", "-initrd", self.parts / "initrd",
             "-append", "console=ttyAMA0 loglevel=5 root=/dev/vda panic=0",
             "-serial", f"file:{at}/console-{self._boots}.log",

@@ -27,5 +27,5 @@ class Watchdog(BoardTest):
         self.agent.read("sysctl -w kernel.panic=0")
         self.agent.start("echo c > /proc/sysrq-trigger")
         event = self.machine.monitor.wait_for_event("WATCHDOG", 120)
-        self.figure(f"the watchdog wants: {event['data']['action']}")
+        self.figure(f"the watchdog wants: {event['action']}")
         self.machine.power_cut()
