@@ -1,5 +1,5 @@
 """A board that lost its power and is switched on again, now with its camera by libcamera; then its kernel hangs."""
-from case import BoardTest
+from case import BOOT_S, BoardTest
 from service import CONFIG
 from tracking import Tracking
 
@@ -11,12 +11,13 @@ class OnLibcamera(Tracking, BoardTest):
 
     @classmethod
     def setUpClass(cls):
+        super().setUpClass()
         machine = cls.machine
-        if machine.is_on:
-            machine.agent.read(f"sed -i 's|^device = .*|device = \"{cls.camera}\"|' {CONFIG}; sync")
-            cls.neutral = machine.agent.run(f"sha256sum {NEUTRAL}").out
-            machine.power_cut()
+        machine.agent.read(f"sed -i 's|^device = .*|device = \"{cls.camera}\"|' {CONFIG}; sync")
+        cls.neutral = machine.agent.run(f"sha256sum {NEUTRAL}").out
+        machine.power_cut()
         machine.power_on()
+        machine.wait_until_up(BOOT_S)
 
     def test_04_the_neutral_is_as_it_was_before_the_power_cut(self):
         self.assertEqual(self.agent.run(f"sha256sum {NEUTRAL}").out, self.neutral)
