@@ -15,6 +15,7 @@ class OnLibcamera(Tracking, BoardTest):
         machine = cls.machine
         machine.agent.read(f"sed -i 's|^device = .*|device = \"{cls.camera}\"|' {CONFIG}; sync")
         cls.neutral = machine.agent.run(f"sha256sum {NEUTRAL}").out
+        machine.keep_journal()
         machine.power_cut()
         machine.power_on()
         machine.wait_until_up(BOOT_S)
@@ -25,6 +26,7 @@ class OnLibcamera(Tracking, BoardTest):
 
 class Watchdog(BoardTest):
     def test_05_a_kernel_that_hangs_is_reset_by_the_hardware(self):
+        self.machine.keep_journal()
         self.agent.read("sysctl -w kernel.panic=0")
         self.agent.start("echo c > /proc/sysrq-trigger")
         event = self.machine.monitor.wait_for_event("WATCHDOG", 120)
