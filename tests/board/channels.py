@@ -16,6 +16,7 @@ class JsonLines:
         self._received = b""
 
     def send(self, message):
+        self._socket.settimeout(60)
         self._socket.sendall(json.dumps(message).encode() + b"\n")
 
     def receive(self, timeout):
@@ -56,11 +57,11 @@ class Monitor:
                 return answer["return"]
 
     def wait_for_event(self, name, timeout):
-        """The event, whether it has come already or comes within `timeout` seconds."""
+        """What comes with it, whether it has come already or comes within `timeout` seconds."""
         deadline = time.monotonic() + timeout
         while not any(event["event"] == name for event in self.events):
             self.events.append(self._lines.receive(deadline - time.monotonic()))
-        return next(event for event in self.events if event["event"] == name)
+        return next(event for event in self.events if event["event"] == name).get("data")
 
     def close(self):
         self._lines.close()
@@ -77,21 +78,12 @@ class Agent:
 
     def __init__(self, path):
         self._lines = JsonLines(path)
-        self._sync = 0
 
-    def wait(self, timeout):
-        """Until the board answers."""
-        deadline = time.monotonic() + timeout
-        while time.monotonic() < deadline:
-            self._sync += 1
-            self._lines.send({"execute": "guest-sync", "arguments": {"id": self._sync}})
-            try:
-                while self._lines.receive(2).get("return") != self._sync:
-                    pass
-                return
-            except TimeoutError:
-                pass
-        raise TimeoutError(f"the board did not come up in {timeout} s")
+    def greet(self, timeout):
+        """Throws away what was meant for another; the first thing to do."""
+        self._lines.send({"execute": "guest-sync", "arguments": {"id": 1}})
+        while self._lines.receive(timeout).get("return") != 1:
+            pass
 
     def shut_down(self):
         """Asks the board to; there is no answer."""

@@ -1,6 +1,7 @@
 """The emulated board: QEMU with a webcam, a serial adapter and a watchdog that can be pulled while it runs."""
 import itertools
 import pathlib
+import shlex
 import shutil
 import signal
 import socket
@@ -102,7 +103,9 @@ class Machine:
         self.has_serial = True
         self._log = open(self.folder / f"qemu-{self._boots}.log", "w")
         self.booted_at = time.monotonic()
-        self._qemu = subprocess.Popen(self._command(), stdin=subprocess.DEVNULL, stdout=self._log,
+        command = [str(word) for word in self._command()]
+        print(shlex.join(command), file=self._log, flush=True)
+        self._qemu = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=self._log,
                                       stderr=self._log)
         sockets = [self.folder / f"{name}.sock" for name in ("monitor", "agent", "line")]
         try:
@@ -113,6 +116,11 @@ class Machine:
         except Exception:
             self.power_cut()
             raise
+
+    def wait_until_up(self, timeout):
+        """Until the guest agent has opened its line and answers."""
+        self.monitor.wait_for_event("VSERPORT_CHANGE", timeout)
+        self.agent.greet(60)
 
     def _ended(self):
         if self._qemu.poll() is not None:

@@ -24,7 +24,8 @@ class Panel:
 
     # Normally closed: its contact pulls the line down.
     def open_estop(self):
-        self.set("estop", True)
+        """When it had opened, on the board's clock."""
+        return float(self._agent.read(f"echo pull-up > {self._line('estop')}/pull; cut -d' ' -f1 /proc/uptime"))
 
     def close_estop(self):
         self.set("estop", False)

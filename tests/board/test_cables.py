@@ -54,11 +54,10 @@ class Cables(BoardTest):
     def test_04_a_serial_line_pulled_and_put_back_carries_poses_again(self):
         journal = self.service.journal_mark()
         self.machine.pull_serial()
-        self.service.wait_for_words("line gone", PATIENCE, journal)
+        self.service.wait_for_words("the line to the host is gone", PATIENCE, journal)
         mark = self.line.mark()
         self.machine.plug_serial()
         back = self.line.wait_for("a pose", lambda pose: True, timeout=PATIENCE, since=mark)
         # Nobody knows what the far end did meanwhile, so it all begins at neutral.
         self.assertLess(self.line.off_neutral(back), 0.001)
         self.wait_for_tracking(since=mark)
-        self.service.wait_for_words("line up", PATIENCE, journal)

@@ -12,14 +12,13 @@ class Disks(StillFaceTest):
     def neutral(self):
         return self.agent.read(f"sha256sum {NEUTRAL}").split()[0]
 
-    def refused(self):
-        """What the journal says of a calibration that cannot be stored."""
+    def not_kept(self):
+        """What the journal says of a calibration that cannot be stored; the face follows it all the same."""
         journal = self.service.journal_mark()
         answer = self.calibrate()
-        self.assertEqual(answer.code, 1, answer.out)
-        said = [line for line in self.service.journal(journal).splitlines() if NEUTRAL in line]
-        self.assertTrue(said, f"the journal names no file: {self.service.journal(journal)}")
-        return said[-1]
+        self.assertIn("kept only until the restart", answer.out)
+        self.assertIn("kept only until the restart", self.service.journal(journal))
+        return next(line for line in self.service.journal(journal).splitlines() if "until the restart" in line)
 
     def test_01_calibrating_stores_the_neutral(self):
         answer = self.calibrate()
@@ -31,7 +30,7 @@ class Disks(StillFaceTest):
         # Root may fill what is kept back for root, too.
         self.agent.run("dd if=/dev/zero of=/var/full bs=1M; dd if=/dev/zero of=/var/fuller bs=512", PATIENCE)
         try:
-            self.figure(self.refused())
+            self.figure(self.not_kept())
             self.assertEqual(self.neutral(), before)
         finally:
             self.agent.read("rm -f /var/full /var/fuller")
@@ -41,7 +40,7 @@ class Disks(StillFaceTest):
     def test_03_a_read_only_disk_is_told_and_a_board_with_one_starts(self):
         self.agent.read("sync; mount -o remount,ro /var")
         try:
-            self.figure(self.refused())
+            self.figure(self.not_kept())
             self.service.do("restart")
             self.wait_for_tracking()
         finally:
@@ -49,7 +48,7 @@ class Disks(StillFaceTest):
 
     def test_04_a_power_cut_while_saving_leaves_the_old_or_the_new_neutral(self):
         known = [self.neutral()]
-        calibrating = self.agent.start("facewire calibrate")
+        calibrating = self.agent.start("for i in 1 2 3 4 5 6 7 8; do facewire calibrate --timeout 60 && break; done")
         seen = []
         for copy in self.machine.power_cuts("var", every_s=0.02):
             seen.append(neutral_after_power_cut(copy))

@@ -5,8 +5,3 @@ from tracking import Tracking
 
 class OnV4l2(Tracking, BoardTest):
     camera = "v4l2:/dev/video0"
-
-    @classmethod
-    def setUpClass(cls):
-        if not cls.machine.is_on:
-            cls.machine.power_on()

@@ -4,7 +4,7 @@ from machine import wait_until
 from panel import Panel
 
 # A picture takes seconds here, and between two pictures nobody looks at the button.
-SHORT_PRESS_S, LONG_PRESS_S = 1.5, 12
+SHORT_PRESS_S, LONG_PRESS_S = 1.2, 12
 
 
 class Buttons(StillFaceTest):
@@ -24,18 +24,17 @@ class Buttons(StillFaceTest):
     def test_02_a_short_press_calibrates(self):
         journal = self.service.journal_mark()
         self.panel.press(SHORT_PRESS_S)
-        said = self.service.wait_for_words("calibrat", PATIENCE, journal)
+        said = self.service.wait_for_words("neutral", PATIENCE, journal)
         self.figure(said.strip().splitlines()[-1])
 
     def test_03_an_open_estop_stops_all_motion_within_a_tick(self):
         mark = self.line.mark()
-        opened = self.board_clock()
-        self.panel.open_estop()
+        opened = self.panel.open_estop()
         stopped = self.line.wait_for_state("stopped", timeout=PATIENCE, since=mark)
-        before = [pose for pose in self.line.since(mark) if pose.sent_s > opened and pose.sequence < stopped.sequence]
-        self.figure(f"Stopped {1000 * (stopped.sent_s - opened):.0f} ms later, after {len(before)} more poses")
-        # The pose in the making when the contact opened may still come; the next one is stopped.
-        self.assertLessEqual(len([pose for pose in before if pose.state != "stopped"]), 1)
+        late = [pose for pose in self.line.since(mark) if pose.sent_s > opened and pose.state != "stopped"]
+        self.figure(f"{len(late)} moving poses after it had opened")
+        # One may have been in the making.
+        self.assertLessEqual(len(late), 1)
         later = self.line.mark()
         self.line.wait_for("ten more poses", lambda pose: self.line.mark() >= later + 10, PATIENCE)
         for pose in self.line.since(later):
@@ -53,10 +52,3 @@ class Buttons(StillFaceTest):
         self.assertEqual({pose.state for pose in self.line.since(mark)}, {"stopped"})
         self.panel.press(LONG_PRESS_S)
         self.line.wait_for_state("starting", timeout=PATIENCE)
-
-    def test_05_a_cut_wire_is_an_open_estop(self):
-        self.panel.set("estop", True)  # only the pull-up is left
-        self.line.wait_for_state("stopped", timeout=PATIENCE)
-
-    def board_clock(self):
-        return float(self.agent.read("cut -d' ' -f1 /proc/uptime"))
