@@ -43,6 +43,8 @@ LID_GAPS = [(159, 145), (158, 153), (160, 144), (386, 374), (385, 380), (387, 37
 BROWS = [70, 63, 105, 66, 107, 300, 293, 334, 296, 336, 46, 53, 52, 65, 55, 276, 283, 282, 295, 285]
 NOSE_ROOT = [6, 168, 197]
 SIDES = [234, 454]
+# Beside the outer corners, where a blink moves the skin least.
+BESIDE_EYES = [113, 342]
 INNER_LIPS = [13, 14, 82, 87, 312, 317, 81, 178, 311, 402, 78, 308, 191, 415]
 OUTER_LIPS = [61, 291, 0, 17, 37, 267, 84, 314, 39, 269, 181, 405, 40, 270]
 LIP_GAPS = [(13, 14), (82, 87), (312, 317), (81, 178), (311, 402)]
@@ -50,6 +52,8 @@ CHIN = [172, 397, 400, 176, 175, 394, 169]
 # The rest of the lower face, evenly: each the farthest from those before it and from the lips.
 LOWER_FACE = [454, 234, 448, 228, 419, 196, 147, 376, 36, 266, 132, 361, 4, 207, 427, 137, 366, 451, 231, 116, 345] + CHIN
 EYES = RIGHT_LIDS + LEFT_LIDS + SOCKETS
+# Corners alone go up and down with a squint.
+AROUND_EYES = CORNERS + SOCKETS + [6]
 MOUTH = INNER_LIPS + OUTER_LIPS + LOWER_FACE
 
 
@@ -63,20 +67,20 @@ def is_gaze(name):
 
 # name, targets, points, origin, gaps, gain of the gaps, axes, epsilon times median distance, smoothing, smoothing of the tail
 REGIONS = [
-    ("blinks", starts("eyeBlink"), EYES, CORNERS + SOCKETS + [6], LID_GAPS, 4, 24, 1, 1.2, 1),
-    ("eyes", lambda n: n.startswith("eye") and not n.startswith("eyeBlink") and not is_gaze(n), EYES, CORNERS, [], 1, 16,
-     1.5, 1.5, 6),
+    ("blinks", starts("eyeBlink"), EYES, AROUND_EYES, LID_GAPS, 5, 24, 1, 0.6, 3),
+    ("eyes", lambda n: n.startswith("eye") and not n.startswith("eyeBlink") and not is_gaze(n), EYES, AROUND_EYES, [], 1,
+     16, 1.5, 1.5, 6),
     ("gaze", is_gaze, IRISES, CORNERS, [], 1, 0, 1, 0.5, 1),
     ("brows", starts("brow"), BROWS, NOSE_ROOT + [133, 362], [], 1, 24, 1, 1, 1),
-    ("jaw", lambda n: n == "jawOpen", CHIN, NOSE_ROOT + SIDES + OUTER_CORNERS, LIP_GAPS, 24, 16, 0.5, 1, 10),
-    ("mouth", starts("mouth", "cheekPuff", "jawLeft", "jawRight", "jawForward"), MOUTH, NOSE_ROOT + OUTER_CORNERS, [], 1, 32,
-     1.25, 2, 190),
-    ("cheeks", starts("cheekSquint", "noseSneer"), MOUTH + EYES + BROWS, [], [], 1, 10, 2, 1.5, 200),
+    ("jaw", lambda n: n == "jawOpen", CHIN, NOSE_ROOT + SIDES + OUTER_CORNERS, LIP_GAPS, 24, 16, 0.5, 0.7, 10),
+    ("mouth", starts("mouth", "cheekPuff", "jawLeft", "jawRight", "jawForward"), MOUTH, [6, 168] + BESIDE_EYES,
+     [], 1, 32, 1.1, 1.5, 60),
+    ("cheeks", starts("cheekSquint", "noseSneer"), MOUTH + EYES + BROWS, [], [], 1, 8, 2, 1.5, 200),
 ]
 
 
 # A lid that closes makes the tracker see the brows move. Its main direction is taken out, and what is left of it is small.
-EXTRA = {"brows": 'ignores = ["eyeBlinkLeft", "eyeBlinkRight"]\ndead_zone = 0.11\n'}
+EXTRA = {"brows": 'ignores = ["eyeBlinkLeft", "eyeBlinkRight"]\ndead_zone = 0.1\n'}
 
 
 def read(path):
