@@ -3,6 +3,7 @@
 import argparse
 import importlib
 import pathlib
+import signal
 import subprocess
 import sys
 import time
@@ -81,6 +82,7 @@ def main():
     parser.add_argument("tests", nargs="*")
     given = parser.parse_args()
 
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # leaves no machine behind
     webcam = Webcam(given.pictures, given.folder)
     BoardTest.machine = machine = Machine(given.parts, given.folder, webcam)
     result = Lines()
