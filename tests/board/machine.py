@@ -141,7 +141,7 @@ class Machine:
             "-drive", f"file={at}/var.qcow2,if=none,id=var", "-device", "virtio-blk-pci,drive=var",
             "-device", "virtio-rng-pci", "-device", "virtio-serial-pci",
             "-chardev", f"socket,id=agent,path={at}/agent.sock,server=on,wait=off",
-            "-device", "virtserialport,chardev=agent,name=org.qemu.guest_agent.0",
+            "-device", "virtserialport,id=shell,chardev=agent,name=org.qemu.guest_agent.0",
             "-device", "i6300esb,id=watchdog", "-action", "watchdog=pause",
             "-device", "qemu-xhci,id=usb",
             "-chardev", f"socket,id=webcam,path={self.webcam.socket},reconnect=1",
