@@ -87,7 +87,9 @@ REGIONS = [
 
 
 # A lid that closes makes the tracker see the brows move. Its main direction is taken out, and what is left of it is small.
-EXTRA = {"brows": 'ignores = ["eyeBlinkLeft", "eyeBlinkRight"]\ndead_zone = 0.1\n', "eyes": "dead_zone = 0.03\n"}
+# Of the eyes, too, only the beginning of a range is noise.
+EXTRA = {"brows": 'ignores = ["eyeBlinkLeft", "eyeBlinkRight"]\ndead_zone = 0.1\n',
+         "eyes": "dead_zone = 0.03\n"}
 
 
 def read(path):
