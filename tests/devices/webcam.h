@@ -12,6 +12,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "hal/posix/byte_stream.h"
@@ -31,8 +32,8 @@ inline constexpr const char* kPictures = "/facewire/pictures";  // those that it
 
 // Its node, "" while it is unplugged. The camera has a second one, for metadata, of the same name.
 inline std::string WebcamNode() {
-  const std::filesystem::path link = kWebcamById;
-  return std::filesystem::exists(link) ? std::filesystem::canonical(link).string() : "";
+  std::error_code gone;
+  return std::filesystem::canonical(kWebcamById, gone).string();
 }
 
 class Webcam {

@@ -27,9 +27,10 @@ def main(folder, facewired):
     failures = 0
     with tempfile.TemporaryDirectory() as scratch:
         for unit in sorted(pathlib.Path(folder).glob("*.service")):
-            # The program of this build stands for the installed one, which need not be there.
+            # What this tree has stands for what is installed, which need not be there.
             text = re.sub(r"^(Exec\w+=[-+!]*)/usr/bin/facewired?\b", rf"\g<1>{facewired}",
                           unit.read_text(), flags=re.MULTILINE)
+            text = text.replace("/usr/lib/facewire/", f"{pathlib.Path(folder).resolve()}/")
             copy = pathlib.Path(scratch) / unit.name
             copy.write_text(text)
             code, said = run("systemd-analyze", "verify", "--man=no", str(copy))

@@ -47,6 +47,8 @@ SIDES = [234, 454]
 BESIDE_EYES = [113, 342]
 INNER_LIPS = [13, 14, 82, 87, 312, 317, 81, 178, 311, 402, 78, 308, 191, 415]
 OUTER_LIPS = [61, 291, 0, 17, 37, 267, 84, 314, 39, 269, 181, 405, 40, 270]
+# Top, bottom and corners: from their own middle, the form of the lips does not depend on where the tracker puts the mouth.
+MOUTH_ENDS = [0, 17, 61, 291]
 LIP_GAPS = [(13, 14), (82, 87), (312, 317), (81, 178), (311, 402)]
 CHIN = [172, 397, 400, 176, 175, 394, 169]
 # The rest of the lower face, evenly: each the farthest from those before it and from the lips.
@@ -65,22 +67,29 @@ def is_gaze(name):
     return name.startswith(("eyeLookIn", "eyeLookOut"))
 
 
+def is_of_lips(name):
+    return name.startswith(("mouthPucker", "mouthSmile", "cheekPuff"))
+
+
 # name, targets, points, origin, gaps, gain of the gaps, axes, epsilon times median distance, smoothing, smoothing of the tail
 REGIONS = [
     ("blinks", starts("eyeBlink"), EYES, AROUND_EYES, LID_GAPS, 5, 24, 1, 0.6, 3),
     ("eyes", lambda n: n.startswith("eye") and not n.startswith("eyeBlink") and not is_gaze(n), EYES, AROUND_EYES, [], 1,
-     16, 1.5, 1.5, 6),
+     16, 1.5, 1.5, 60),
     ("gaze", is_gaze, IRISES, CORNERS, [], 1, 0, 1, 0.5, 1),
     ("brows", starts("brow"), BROWS, NOSE_ROOT + [133, 362], [], 1, 24, 1, 1, 1),
     ("jaw", lambda n: n == "jawOpen", CHIN, NOSE_ROOT + SIDES + OUTER_CORNERS, LIP_GAPS, 24, 16, 0.5, 0.7, 10),
-    ("mouth", starts("mouth", "cheekPuff", "jawLeft", "jawRight", "jawForward"), MOUTH, [6, 168] + BESIDE_EYES,
-     [], 1, 32, 1.1, 1.5, 60),
+    ("lips", is_of_lips, INNER_LIPS + OUTER_LIPS, MOUTH_ENDS, [], 1, 24, 2, 1.5, 60),
+    ("mouth", lambda n: n.startswith(("mouth", "jaw")) and n != "jawOpen" and not is_of_lips(n), MOUTH,
+     [6, 168] + BESIDE_EYES, [], 1, 32, 1.1, 1.5, 60),
     ("cheeks", starts("cheekSquint", "noseSneer"), MOUTH + EYES + BROWS, [], [], 1, 8, 2, 1.5, 200),
 ]
 
 
 # A lid that closes makes the tracker see the brows move. Its main direction is taken out, and what is left of it is small.
-EXTRA = {"brows": 'ignores = ["eyeBlinkLeft", "eyeBlinkRight"]\ndead_zone = 0.1\n'}
+# Of the eyes, too, only the beginning of a range is noise.
+EXTRA = {"brows": 'ignores = ["eyeBlinkLeft", "eyeBlinkRight"]\ndead_zone = 0.1\n',
+         "eyes": "dead_zone = 0.03\n"}
 
 
 def read(path):
