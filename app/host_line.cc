@@ -17,7 +17,12 @@ constexpr int kPartsPerTick = 4;
 void HostLine::SetRig(const Rig& rig, std::uint32_t rig_id) noexcept {
   rig_ = &rig;
   rig_id_ = rig_id;
-  described_ = 0;
+  next_part_ = 0;
+  Describe();
+}
+
+void HostLine::Describe() noexcept {
+  parts_left_ = rig_ == nullptr ? 0 : wire::DescriptionCount(*rig_);
 }
 
 Result<> HostLine::Open() noexcept {
@@ -32,7 +37,8 @@ Result<> HostLine::Open() noexcept {
   taken_ = clock_.Now();
   out_begin_ = out_end_ = 0;
   unread_ = {};
-  described_ = 0;
+  next_part_ = 0;
+  Describe();
   ++counters_.opens;
   return {};
 }
@@ -100,10 +106,12 @@ void HostLine::SendAcknowledgements(Time deadline) noexcept {
 
 void HostLine::SendDescription(Time deadline) noexcept {
   if (rig_ == nullptr) return;
-  for (int i = 0; i < kPartsPerTick && described_ < wire::DescriptionCount(*rig_); ++i) {
-    const Result<wire::Message> part = wire::Description(*rig_, rig_id_, described_);
+  const std::size_t parts = wire::DescriptionCount(*rig_);
+  for (int i = 0; i < kPartsPerTick && parts_left_ > 0; ++i) {
+    const Result<wire::Message> part = wire::Description(*rig_, rig_id_, next_part_);
     if (!part || !Frame(*part)) return;
-    ++described_;
+    next_part_ = (next_part_ + 1) % parts;
+    --parts_left_;
     if (!Flush(deadline)) return;
   }
 }

@@ -42,8 +42,9 @@ class HostLine {
 
   // Opens the line; later on it is reopened by itself, with back-off. Errors as SerialPort::Open.
   Result<> Open() noexcept;
-  // Sends everything about the rig again, from its beginning.
-  void Describe() noexcept { described_ = 0; }
+  // Sends everything about the rig again. Asked in the middle of it, it goes on from there and
+  // round, so that a host which asks faster than the line carries still gets every part.
+  void Describe() noexcept;
 
   // The next command that has arrived, without waiting.
   std::optional<wire::Command> NextCommand() noexcept;
@@ -79,7 +80,8 @@ class HostLine {
 
   const Rig* rig_ = nullptr;
   std::uint32_t rig_id_ = 0;
-  std::size_t described_ = 0;  // parts of the description that were sent
+  std::size_t next_part_ = 0;   // of the description
+  std::size_t parts_left_ = 0;  // of it, to be sent
 
   wire::Encoder encoder_;
   std::array<std::byte, wire::kMaxFrameBytes> out_{};

@@ -47,6 +47,7 @@ struct Link {
         if (const auto* pose = std::get_if<wire::Pose>(&got->message)) {
           received.push_back(pose->frame_seq);
         }
+        host_rig.Add(got->message);
       }
     }
   }
@@ -59,7 +60,18 @@ struct Link {
   std::uint64_t read = 0;
   wire::Decoder decoder;
   std::vector<std::uint32_t> received;
+  wire::RigCollector host_rig;
 };
+
+TEST(HostLine, AHostThatAsksAgainWithEveryPoseGetsTheWholeRig) {
+  Link link;
+  ASSERT_TRUE(link.line.Open());
+  for (int i = 0; i < 3; ++i) {
+    link.line.Describe();
+    link.Send();
+  }
+  EXPECT_TRUE(link.host_rig.Complete());
+}
 
 TEST(HostLine, GoesOnAtTheRightByteWhereverALineThatWasFullCutIt) {
   Link sizes;
