@@ -1,7 +1,7 @@
 """What a board that was switched on must show, whichever library its camera comes through."""
 from case import PATIENCE
 
-JAW_OPENS_DEG = 1.0  # the jaw's least motion that is one; speech opens it by 5 to 15
+JAW_OPENS_DEG = 3.0  # less may be jitter; speech opens it by 5 to 15
 
 
 class Tracking:
