@@ -172,8 +172,8 @@ class Machine:
             self.monitor.command("stop")
             copy = self.folder / f"cut-{cut}.qcow2"
             shutil.copyfile(self.folder / f"{disk}.qcow2", copy)
-            yield copy
             self.monitor.command("cont")
+            yield copy
             time.sleep(every_s)
 
     def power_off(self, timeout=120):
