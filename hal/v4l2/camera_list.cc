@@ -70,6 +70,7 @@ std::vector<fs::path> Nodes(const fs::path& dev) {
   }
   std::ranges::sort(found);
   std::vector<fs::path> nodes;
+  nodes.reserve(found.size());
   for (auto& [number, path] : found) nodes.push_back(std::move(path));
   return nodes;
 }

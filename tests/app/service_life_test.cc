@@ -182,7 +182,8 @@ TEST(Life, NeedsNoDiskButSaysWhatItCannotKeep) {
   }
   Process again = f.Start({"--fake"});
   Listener host(f.scratch / "line");
-  EXPECT_TRUE(host.Until([&] { return host.state() == S::kStopped; })) << "systemd keeps that one: " << again.err();
+  EXPECT_TRUE(host.Until([&] { return host.state() == S::kStopped; }))
+      << "systemd keeps that one: " << again.err();
   EXPECT_EQ(tool(host, "release").code, 0);
   EXPECT_TRUE(host.Until([&] { return host.state() == S::kTracking; }));
 }

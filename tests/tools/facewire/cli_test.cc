@@ -25,8 +25,8 @@ TEST(FacewireCli, HelpsAndTellsItsVersion) {
   const Outcome help = RunFacewire({"--help"});
   EXPECT_EQ(help.code, 0);
   EXPECT_THAT(RunFacewire({"--version"}).out, StartsWith("facewire "));
-  for (const char* command :
-       {"track", "record", "pick", "retarget", "neutral-of", "train", "monitor", "sheet", "doctor"}) {
+  for (const char* command : {"track", "record", "pick", "retarget", "neutral-of", "train",
+                              "monitor", "sheet", "doctor"}) {
     EXPECT_THAT(help.out, HasSubstr(command));
     const Outcome own = RunFacewire({command, "--help"});
     EXPECT_EQ(own.code, 0) << command;

@@ -151,7 +151,8 @@ TEST(FacewireRecord, LandmarkFilesStandInForTheirVideo) {
   ASSERT_EQ(expected.size(), actual.size());
   ASSERT_GT(actual.size(), 20U);
   for (std::size_t i = 0; i < actual.size(); ++i) EXPECT_NEAR(actual[i], expected[i], 0.02) << i;
-  EXPECT_EQ(RunFacewire({"neutral-of", seen, "--frames", "0:3", "--out", scratch.Path("n")}).code, 0);
+  EXPECT_EQ(RunFacewire({"neutral-of", seen, "--frames", "0:3", "--out", scratch.Path("n")}).code,
+            0);
 }
 
 }  // namespace
