@@ -61,8 +61,8 @@ Result<> LibcameraCamera::Prepare() {
     decoder_.emplace(mode.width_px, mode.height_px);
     return {};
   }
-  const Result<v4l2::PixelLayout> layout = v4l2::LayOut(PixelFormatOf(mode.format), mode.width_px,
-                                                        mode.height_px, negotiated_.stride_bytes);
+  const Result<PixelLayout> layout =
+      LayOut(PixelFormatOf(mode.format), mode.width_px, mode.height_px, negotiated_.stride_bytes);
   bool fits = layout.has_value();
   for (const MappedBuffer& buffer : session_->buffers()) {
     fits = fits && buffer.View(*layout).has_value();

@@ -51,7 +51,7 @@ class LibcameraCamera final : public Camera {
   std::unique_ptr<Session> session_;
   bool running_ = false;
   Negotiated negotiated_;
-  v4l2::PixelLayout layout_;                  // of pixels; without planes for JPEGs
+  PixelLayout layout_;                        // of pixels; without planes for JPEGs
   std::optional<jpeg::JpegDecoder> decoder_;  // for JPEGs
   FrameCount count_;
   int held_ = -1;  // the buffer that the caller has, or -1

@@ -55,18 +55,18 @@ void MappedBuffer::Sync(bool begin) const noexcept {
   }
 }
 
-std::size_t PlaneCount(const v4l2::PixelLayout& layout) noexcept {
+std::size_t PlaneCount(const PixelLayout& layout) noexcept {
   return static_cast<std::size_t>(
       std::count_if(layout.view.planes.begin(), layout.view.planes.end(),
                     [](const Plane& plane) { return plane.stride_bytes > 0; }));
 }
 
-std::size_t PlaneBytes(const v4l2::PixelLayout& layout, std::size_t plane) noexcept {
+std::size_t PlaneBytes(const PixelLayout& layout, std::size_t plane) noexcept {
   const bool last = plane + 1 == PlaneCount(layout);
   return (last ? layout.bytes : layout.plane_offsets[plane + 1]) - layout.plane_offsets[plane];
 }
 
-Result<ImageView> MappedBuffer::View(const v4l2::PixelLayout& layout) const noexcept {
+Result<ImageView> MappedBuffer::View(const PixelLayout& layout) const noexcept {
   const std::size_t count = PlaneCount(layout);
   if (planes_.size() == 1) {
     if (planes_[0].size() < layout.bytes) return Errc::kUnsupported;

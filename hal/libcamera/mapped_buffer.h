@@ -7,7 +7,7 @@
 
 #include "core/base/inline_vector.h"
 #include "core/base/result.h"
-#include "hal/v4l2/pixel_layout.h"
+#include "hal/pixel_layout.h"
 
 namespace facewire::hal::libcamera {
 
@@ -41,7 +41,7 @@ class MappedBuffer {
 
   // The picture that lies in the planes: in one plane for all of `layout`, or in one for each of
   // its own. kUnsupported: they do not hold it.
-  Result<ImageView> View(const v4l2::PixelLayout& layout) const noexcept;
+  Result<ImageView> View(const PixelLayout& layout) const noexcept;
 
  private:
   struct Mapping {
@@ -56,8 +56,8 @@ class MappedBuffer {
 };
 
 // How many bytes of each plane of `layout` a whole picture fills.
-std::size_t PlaneBytes(const v4l2::PixelLayout& layout, std::size_t plane) noexcept;
-std::size_t PlaneCount(const v4l2::PixelLayout& layout) noexcept;
+std::size_t PlaneBytes(const PixelLayout& layout, std::size_t plane) noexcept;
+std::size_t PlaneCount(const PixelLayout& layout) noexcept;
 
 }  // namespace facewire::hal::libcamera
 

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "hal/posix/errors.h"
+#include "hal/v4l2/fourcc.h"
 #include "hal/v4l2/frame_rate.h"
-#include "hal/v4l2/pixel_layout.h"
 
 namespace facewire::hal::v4l2 {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "hal/posix/byte_stream.h"
 #include "hal/posix/errors.h"
+#include "hal/v4l2/fourcc.h"
 
 namespace facewire::hal::v4l2 {
 namespace {

@@ -15,8 +15,8 @@
 #include "hal/camera_format.h"
 #include "hal/clock.h"
 #include "hal/jpeg/jpeg_decoder.h"
+#include "hal/pixel_layout.h"
 #include "hal/v4l2/frame_rate.h"
-#include "hal/v4l2/pixel_layout.h"
 #include "hal/v4l2/system_calls.h"
 
 struct v4l2_buffer;

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "hal/posix/errors.h"
+#include "hal/v4l2/fourcc.h"
 #include "hal/v4l2/v4l2_camera.h"
 
 namespace facewire::hal::v4l2 {

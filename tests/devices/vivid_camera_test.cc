@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "hal/system_clock.h"
+#include "hal/v4l2/fourcc.h"
 #include "hal/v4l2/v4l2_camera.h"
 #include "tests/devices/vivid.h"
 

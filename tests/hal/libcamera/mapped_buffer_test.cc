@@ -22,8 +22,8 @@ UniqueFd Counting(std::size_t bytes) {
   return fd;
 }
 
-v4l2::PixelLayout Nv12(int width_px, int height_px, unsigned stride_bytes = 0) {
-  return *v4l2::LayOut(PixelFormat::kNv12, width_px, height_px, stride_bytes);
+PixelLayout Nv12(int width_px, int height_px, unsigned stride_bytes = 0) {
+  return *LayOut(PixelFormat::kNv12, width_px, height_px, stride_bytes);
 }
 
 TEST(MappedBuffer, APictureInOnePlaneIsSplitByItsLayout) {
@@ -89,7 +89,7 @@ TEST(MappedBuffer, WhatCannotBeMappedIsAnError) {
 }
 
 TEST(PlaneBytes, SumUpToTheLayout) {
-  const auto layout = v4l2::LayOut(PixelFormat::kI420, 8, 4, 0);
+  const auto layout = LayOut(PixelFormat::kI420, 8, 4, 0);
   ASSERT_EQ(PlaneCount(*layout), 3U);
   EXPECT_EQ(PlaneBytes(*layout, 0), 32U);
   EXPECT_EQ(PlaneBytes(*layout, 1), 8U);

@@ -1,24 +1,14 @@
-#ifndef FACEWIRE_HAL_V4L2_PIXEL_LAYOUT_H_
-#define FACEWIRE_HAL_V4L2_PIXEL_LAYOUT_H_
+#ifndef FACEWIRE_HAL_PIXEL_LAYOUT_H_
+#define FACEWIRE_HAL_PIXEL_LAYOUT_H_
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 
 #include "core/base/result.h"
 #include "core/frame.h"
-#include "hal/camera_format.h"
 
-namespace facewire::hal::v4l2 {
-
-// V4L2's code of a format (V4L2_PIX_FMT_...), and back; nullopt for formats that facewire does not
-// read.
-std::uint32_t FourccOf(CameraFormat format) noexcept;
-std::optional<CameraFormat> FormatOf(std::uint32_t fourcc) noexcept;
-
-// "YUYV": a format's code in the letters that v4l2-ctl shows, unprintable ones as '?'.
-std::array<char, 5> FourccText(std::uint32_t fourcc) noexcept;
+namespace facewire::hal {
 
 // Where the planes of a picture lie in one buffer of a device.
 struct PixelLayout {
@@ -35,6 +25,6 @@ struct PixelLayout {
 Result<PixelLayout> LayOut(PixelFormat format, int width_px, int height_px,
                            std::uint32_t stride_bytes) noexcept;
 
-}  // namespace facewire::hal::v4l2
+}  // namespace facewire::hal
 
-#endif  // FACEWIRE_HAL_V4L2_PIXEL_LAYOUT_H_
+#endif  // FACEWIRE_HAL_PIXEL_LAYOUT_H_

@@ -1,21 +1,9 @@
-#include "hal/v4l2/pixel_layout.h"
+#include "hal/pixel_layout.h"
 
 #include <gtest/gtest.h>
-#include <linux/videodev2.h>
 
-#include "hal/v4l2/v4l2_camera.h"
-
-namespace facewire::hal::v4l2 {
+namespace facewire::hal {
 namespace {
-
-TEST(PixelLayout, EveryFormatHasACodeAndComesBackFromIt) {
-  for (const CameraFormat format : kEveryCameraFormat) {
-    EXPECT_EQ(FormatOf(FourccOf(format)), format);
-  }
-  EXPECT_EQ(FormatOf(V4L2_PIX_FMT_H264), std::nullopt);
-  EXPECT_STREQ(FourccText(V4L2_PIX_FMT_MJPEG).data(), "MJPG");
-  EXPECT_STREQ(FourccText(0x01020304).data(), "????");
-}
 
 struct Row {
   PixelFormat format;
@@ -62,4 +50,4 @@ TEST(PixelLayout, RefusesWhatContradictsItself) {
 }
 
 }  // namespace
-}  // namespace facewire::hal::v4l2
+}  // namespace facewire::hal

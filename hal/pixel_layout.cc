@@ -1,20 +1,7 @@
-#include "hal/v4l2/pixel_layout.h"
+#include "hal/pixel_layout.h"
 
-#include <linux/videodev2.h>
-
-namespace facewire::hal::v4l2 {
+namespace facewire::hal {
 namespace {
-
-struct Pair {
-  CameraFormat format;
-  std::uint32_t fourcc;
-};
-constexpr Pair kPairs[] = {
-    {CameraFormat::kYuyv, V4L2_PIX_FMT_YUYV},   {CameraFormat::kNv12, V4L2_PIX_FMT_NV12},
-    {CameraFormat::kI420, V4L2_PIX_FMT_YUV420}, {CameraFormat::kRgb24, V4L2_PIX_FMT_RGB24},
-    {CameraFormat::kBgr24, V4L2_PIX_FMT_BGR24}, {CameraFormat::kMjpeg, V4L2_PIX_FMT_MJPEG},
-    {CameraFormat::kGrey8, V4L2_PIX_FMT_GREY},
-};
 
 // A picture of a size that no camera has is a damaged answer, and its bytes must not overflow an
 // int.
@@ -36,29 +23,6 @@ int BytesPerPixel(PixelFormat format) noexcept {
 }
 
 }  // namespace
-
-std::uint32_t FourccOf(CameraFormat format) noexcept {
-  for (const Pair& pair : kPairs) {
-    if (pair.format == format) return pair.fourcc;
-  }
-  return 0;
-}
-
-std::optional<CameraFormat> FormatOf(std::uint32_t fourcc) noexcept {
-  for (const Pair& pair : kPairs) {
-    if (pair.fourcc == fourcc) return pair.format;
-  }
-  return std::nullopt;
-}
-
-std::array<char, 5> FourccText(std::uint32_t fourcc) noexcept {
-  std::array<char, 5> text{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto letter = static_cast<unsigned char>(fourcc >> (8 * i));
-    text[i] = letter >= ' ' && letter <= '~' ? static_cast<char>(letter) : '?';
-  }
-  return text;
-}
 
 ImageView PixelLayout::At(const std::uint8_t* buffer) const noexcept {
   ImageView at = view;
@@ -85,8 +49,8 @@ Result<PixelLayout> LayOut(PixelFormat format, int width_px, int height_px,
   layout.view.width_px = width_px;
   layout.view.height_px = height_px;
   layout.view.planes[0].stride_bytes = stride;
-  // V4L2's single-buffer planar formats put the planes one after the other without a gap; the
-  // chroma stride follows from the first plane's (kernel documentation, "YUV formats, planar").
+  // Planar formats in one buffer put the planes one after the other without a gap; the
+  // chroma stride follows from the first plane's (V4L2 documentation, "YUV formats, planar").
   const auto first = static_cast<std::size_t>(stride) * static_cast<std::size_t>(height_px);
   const std::size_t rows = static_cast<std::size_t>(height_px) / 2;
   layout.bytes = first;
@@ -104,4 +68,4 @@ Result<PixelLayout> LayOut(PixelFormat format, int width_px, int height_px,
   return layout;
 }
 
-}  // namespace facewire::hal::v4l2
+}  // namespace facewire::hal
