@@ -69,7 +69,7 @@ Answered Ask(const wire::Command& command, const ControlOptions& options) {
 // The answer's sentence, and the service's own words behind or, when they are several lines, below
 // it.
 std::string Sentence(const Answered& answered) {
-  const std::string sentence = app::AnswerText(answered.answer).data();
+  std::string sentence = app::AnswerText(answered.answer).data();
   if (answered.text.empty()) return sentence;
   const bool lines = answered.text.find('\n') != std::string::npos;
   return sentence + (lines ? ":\n" : ": ") + answered.text;
