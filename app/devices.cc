@@ -58,6 +58,17 @@ class SerialLine final : public hal::SerialPort {
   hal::SerialPort* active_ = &tty_;
 };
 
+// What any live camera is asked for.
+template <class Config>
+Config LiveCamera(const CameraOptions& options) {
+  Config config;
+  config.width_px = options.width_px;
+  config.height_px = options.height_px;
+  config.fps = options.fps;
+  if (options.format) config.formats = {*options.format};
+  return config;
+}
+
 // What the person can put right, as opposed to what failed at work.
 bool IsInput(Errc error) {
   return error == Errc::kNotFound || error == Errc::kBusy || error == Errc::kPermission ||
@@ -122,21 +133,13 @@ void OpenSerialPort(hal::SerialPort& port, const std::string& name, int baud) {
 std::unique_ptr<hal::Camera> MakeCamera(const std::string& address, const CameraOptions& options,
                                         hal::Clock& clock) {
   if (address.starts_with(kLibcamera)) {
-    hal::libcamera::LibcameraConfig config;
+    auto config = LiveCamera<hal::libcamera::LibcameraConfig>(options);
     config.camera = Without(address, kLibcamera);
-    config.width_px = options.width_px;
-    config.height_px = options.height_px;
-    config.fps = options.fps;
-    if (options.format) config.formats = {*options.format};
     return std::make_unique<hal::libcamera::LibcameraCamera>(std::move(config), clock);
   }
   if (address.starts_with(kV4l2)) {
-    hal::v4l2::V4l2Config config;
+    auto config = LiveCamera<hal::v4l2::V4l2Config>(options);
     config.device = Without(address, kV4l2);
-    config.width_px = options.width_px;
-    config.height_px = options.height_px;
-    config.fps = options.fps;
-    if (options.format) config.formats = {*options.format};
     return std::make_unique<hal::v4l2::V4l2Camera>(std::move(config), clock);
   }
   return std::make_unique<hal::replay::ReplayCamera>(

@@ -27,7 +27,7 @@ class Watched : public testing::Test, public ServiceContext {
     supervisor = std::make_unique<Supervisor>();
     ::unsetenv("NOTIFY_SOCKET");
     ::unsetenv("WATCHDOG_USEC");
-    observer = std::make_unique<Observer>(journal, *supervisor, latch);
+    observer = std::make_unique<Observer>(journal, *supervisor, *latch);
     testing::internal::CaptureStderr();
   }
   ~Watched() override { (void)Journaled(); }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/service.h"
@@ -111,7 +112,7 @@ class ServiceContext {
                   ++kept;
                   return why_not_kept;
                 },
-            .latch = &latch,
+            .latch = &*latch,
             .log_answer = [this](const wire::Acknowledgement& answer) { logged.push_back(answer); },
             .log_panel = [this](const char* text) { said.emplace_back(text); }},
         character);
@@ -178,7 +179,8 @@ class ServiceContext {
   bool alive = true;
   int kept = 0;
   std::string why_not_kept;
-  StopLatch latch{{}};               // remembers nothing, unless a test gives another
+  // Remembers nothing, unless a test gives another.
+  std::optional<StopLatch> latch{std::in_place, std::vector<std::string>{}};
   retarget::ExampleMapping profile;  // not used before GivePersonalProfile
   std::vector<wire::Acknowledgement> logged;
   std::vector<std::string> said;  // of the panel

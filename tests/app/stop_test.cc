@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "tests/app/fake_disk.h"
 #include "tests/app/performer.h"
 #include "tests/app/service_context.h"
@@ -27,22 +30,9 @@ class Stop : public testing::Test, public ServiceContext {
     latch.emplace(std::vector<std::string>{"/var", "/run"}, disk);
     Begin();
   }
-  void Begin() {
-    service.emplace(config,
-                    ServiceParts{.camera = camera,
-                                 .line = line,
-                                 .clock = clock,
-                                 .follower = follower,
-                                 .capture = capture,
-                                 .control = &control,
-                                 .stop = &stop,
-                                 .latch = &*latch},
-                    character);
-  }
   bool OnDisk(const char* path) const { return disk.Seen().contains(path); }
 
   FakeDisk disk;
-  std::optional<StopLatch> latch;
 };
 
 TEST_F(Stop, HoldsAfterARestartUntilItIsReleased) {
