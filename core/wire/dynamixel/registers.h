@@ -25,6 +25,8 @@ inline constexpr Register kReturnDelay{9, 1};     // 2 us, 0 to 254; delivered w
 inline constexpr Register kDriveMode{10, 1};      // bit 0: reverse; bit 2: profile in ms
 inline constexpr Register kOperatingMode{11, 1};  // an OperatingMode
 inline constexpr Register kTemperatureLimit{31, 1};  // degrees C
+inline constexpr Register kCurrentLimit{38, 2};      // in the unit of the present current; models
+                                                     // without a current sensor have nothing here
 inline constexpr Register kMaxPosition{48, 4};       // counts
 inline constexpr Register kMinPosition{52, 4};       // counts
 inline constexpr Register kShutdown{63, 1};          // HardwareError bits that switch torque off

@@ -1,0 +1,278 @@
+#include "core/bus/dynamixel_bus.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace facewire::bus {
+namespace {
+
+namespace dxl = wire::dynamixel;
+namespace x = wire::dynamixel::x;
+
+constexpr Duration kWatchdogUnit = std::chrono::milliseconds(20);
+constexpr unsigned kTimeProfile = 1U << 2U;  // of the drive mode
+// 0.229 rev/min in counts/s.
+constexpr float kCountsPerSpeed = 0.229F * dxl::kCountsPerTurn / 60;
+constexpr std::size_t kStatusFrame = 11;  // FF FF FD 00 id length 55 error ... CRC
+
+struct Range {
+  std::uint16_t address;
+  std::uint16_t bytes;
+};
+constexpr Range Span(dxl::Register first, dxl::Register last) noexcept {
+  return {first.address, static_cast<std::uint16_t>(last.address + last.bytes - first.address)};
+}
+
+template <class Block>
+constexpr Range RangeOf(Block block) noexcept {
+  switch (block) {
+    case Block::kSettings:
+      return Span(x::kModel, x::kShutdown);
+    case Block::kHealth:
+      return Span(x::kTorqueEnable, x::kGoalPosition);
+    case Block::kStatus:
+      return Span(x::kPresentLoad, x::kPresentTemperature);
+  }
+  return {};
+}
+
+// Little-endian value of `what` in data that begins at `from`.
+std::uint32_t Get(std::span<const std::byte> data, Range from, dxl::Register what) noexcept {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < what.bytes; ++i) {
+    value |= std::to_integer<std::uint32_t>(data[what.address - from.address + i]) << (8 * i);
+  }
+  return value;
+}
+
+std::array<std::byte, 4> Bytes(std::uint32_t value) noexcept {
+  std::array<std::byte, 4> bytes{};
+  for (std::byte& b : bytes) {
+    b = static_cast<std::byte>(value & 0xFFU);
+    value >>= 8U;
+  }
+  return bytes;
+}
+
+std::uint32_t SpeedOf(std::int32_t counts_per_s) noexcept {
+  if (counts_per_s <= 0) return 0;  // unlimited
+  return std::max(1U, static_cast<std::uint32_t>(
+                          std::lround(static_cast<float>(counts_per_s) / kCountsPerSpeed)));
+}
+
+struct FaultPair {
+  dxl::HardwareError theirs;
+  HardwareFault ours;
+};
+constexpr std::array kFaults = {
+    FaultPair{dxl::HardwareError::kVoltage, HardwareFault::kVoltage},
+    FaultPair{dxl::HardwareError::kHeat, HardwareFault::kHeat},
+    FaultPair{dxl::HardwareError::kEncoder, HardwareFault::kEncoder},
+    FaultPair{dxl::HardwareError::kShock, HardwareFault::kShock},
+    FaultPair{dxl::HardwareError::kOverload, HardwareFault::kOverload},
+};
+
+HardwareFaults FaultsFrom(std::uint32_t bits) noexcept {
+  unsigned faults = 0;
+  for (const FaultPair& pair : kFaults) {
+    if ((bits & static_cast<unsigned>(pair.theirs)) != 0) faults |= Bit(pair.ours);
+  }
+  return static_cast<HardwareFaults>(faults);
+}
+
+std::uint32_t FaultsTo(HardwareFaults faults) noexcept {
+  std::uint32_t bits = 0;
+  for (const FaultPair& pair : kFaults) {
+    if ((faults & Bit(pair.ours)) != 0) bits |= static_cast<unsigned>(pair.theirs);
+  }
+  return bits;
+}
+
+// One register of one servo, without a reply.
+std::size_t Tell(std::uint8_t id, dxl::Register what, std::uint32_t value,
+                 std::span<std::byte> out) noexcept {
+  dxl::SyncWrite write(what.address, what.bytes, out);
+  const auto bytes = Bytes(value);
+  (void)write.Add(id, std::span(bytes).first(what.bytes));
+  const auto packet = write.Finish();
+  return packet ? packet->size() : 0;
+}
+
+std::size_t SizeOf(const dxl::Packet& packet) noexcept { return packet ? packet->size() : 0; }
+
+}  // namespace
+
+Result<> DynamixelBus::Configure(const DynamixelConfig& config) noexcept {
+  const auto units = config.watchdog / kWatchdogUnit;
+  if (units < 1 || units > dxl::kMaxWatchdog || config.watchdog < 3 * config.bus.refresh) {
+    return Errc::kOutOfRange;
+  }
+  const auto done = ConfigureChain(config.bus, dxl::kMaxId);
+  if (!done) return done;
+  dynamixel_ = config;
+  full_current_.fill(0);
+  return {};
+}
+
+std::size_t DynamixelBus::MakeGoals(std::span<const Goal> goals,
+                                    std::span<std::byte> out) noexcept {
+  dxl::SyncWrite write(x::kGoalPosition.address, x::kGoalPosition.bytes, out);
+  for (const Goal& goal : goals) {
+    (void)write.Add(goal.id, Bytes(std::bit_cast<std::uint32_t>(goal.counts)));
+  }
+  return SizeOf(write.Finish());
+}
+
+std::size_t DynamixelBus::MakeArming(const Goal& goal, std::span<std::byte> out) noexcept {
+  const auto units = static_cast<std::uint32_t>(dynamixel_.watchdog / kWatchdogUnit);
+  // A watchdog that has tripped keeps the goal from being written until it is cleared.
+  std::size_t used = Tell(goal.id, x::kBusWatchdog, 0, out);
+  used += Tell(goal.id, x::kProfileVelocity, SpeedOf(goal.speed), out.subspan(used));
+  used +=
+      Tell(goal.id, x::kGoalPosition, std::bit_cast<std::uint32_t>(goal.counts), out.subspan(used));
+  used += Tell(goal.id, x::kBusWatchdog, units, out.subspan(used));
+  return used;
+}
+
+std::size_t DynamixelBus::MakeSpeed(const Goal& goal, std::span<std::byte> out) noexcept {
+  return Tell(goal.id, x::kProfileVelocity, SpeedOf(goal.speed), out);
+}
+
+std::size_t DynamixelBus::MakeTorque(std::span<const std::uint8_t> ids, bool on,
+                                     std::span<std::byte> out) noexcept {
+  dxl::SyncWrite write(x::kTorqueEnable.address, x::kTorqueEnable.bytes, out);
+  const std::array value = {std::byte{on}};
+  for (std::uint8_t id : ids) (void)write.Add(id, value);
+  return SizeOf(write.Finish());
+}
+
+std::size_t DynamixelBus::MakeRelease(std::span<std::byte> out) noexcept {
+  const std::array off = {std::byte{0}};
+  return SizeOf(dxl::Write(dxl::kBroadcast, x::kTorqueEnable.address, off, out));
+}
+
+std::size_t DynamixelBus::MakeReboot(std::uint8_t id, std::span<std::byte> out) noexcept {
+  return SizeOf(dxl::Reboot(id, out));
+}
+
+std::size_t DynamixelBus::MakeQuestion(Block block, std::span<const std::uint8_t> ids,
+                                       std::span<std::byte> out) noexcept {
+  const Range range = RangeOf(block);
+  wanted_bytes_ = range.bytes;
+  reader_.Reset();
+  if (ids.size() == 1) return SizeOf(dxl::Read(ids[0], range.address, range.bytes, out));
+  return SizeOf(dxl::SyncRead(range.address, range.bytes, ids, out));
+}
+
+std::optional<ChainBus::Answer> DynamixelBus::NextAnswer(
+    std::span<const std::byte>& bytes) noexcept {
+  const auto status = reader_.Next(bytes);
+  if (!status) return std::nullopt;
+  return Answer{.id = status->id,
+                .good = status->error == dxl::StatusError::kNone &&
+                        status->parameters.size() == wanted_bytes_,
+                .alert = status->alert,
+                .data = status->parameters};
+}
+
+std::size_t DynamixelBus::AnswerBytes(Block block) const noexcept {
+  return kStatusFrame + RangeOf(block).bytes;
+}
+
+bool DynamixelBus::TakeSettings(std::size_t servo, std::span<const std::byte> data) noexcept {
+  const Range from = RangeOf(Block::kSettings);
+  const ServoConfig& wanted = config().servos[servo];
+  bool usable = true;
+  const auto compare = [&](Setting setting, std::int32_t found, std::int32_t want, bool fine,
+                           bool refuse) {
+    Compare({.servo = static_cast<std::uint8_t>(servo),
+             .setting = setting,
+             .found = found,
+             .wanted = want,
+             .refused = refuse},
+            fine);
+    usable = usable && (fine || !refuse);
+  };
+  const auto get = [&](dxl::Register what) {
+    return std::bit_cast<std::int32_t>(Get(data, from, what));
+  };
+  const std::int32_t mode = get(x::kOperatingMode);
+  const auto want_mode = static_cast<std::int32_t>(dynamixel_.mode);
+  compare(Setting::kOperatingMode, mode, want_mode, mode == want_mode, true);
+  const auto timed = static_cast<std::int32_t>(get(x::kDriveMode) & kTimeProfile) != 0;
+  compare(Setting::kProfileUnit, timed, 0, !timed, true);
+  // The servo's own limits are the last to hold when all else fails: they should be the rig's.
+  const auto low = static_cast<std::int32_t>(std::ceil(wanted.min));
+  const auto high = static_cast<std::int32_t>(std::floor(wanted.max));
+  compare(Setting::kMinPosition, get(x::kMinPosition), low, get(x::kMinPosition) == low, false);
+  compare(Setting::kMaxPosition, get(x::kMaxPosition), high, get(x::kMaxPosition) == high, false);
+  const HardwareFaults shutdown = FaultsFrom(Get(data, from, x::kShutdown));
+  compare(Setting::kShutdown, shutdown, dynamixel_.shutdown,
+          (dynamixel_.shutdown & ~unsigned{shutdown}) == 0, false);
+  const std::int32_t delay_us = get(x::kReturnDelay) * 2;
+  const auto most_us = static_cast<std::int32_t>(dynamixel_.max_return_delay.count());
+  compare(Setting::kReturnDelay, delay_us, most_us, delay_us <= most_us, false);
+  full_current_[servo] = static_cast<std::uint16_t>(get(x::kCurrentLimit));
+  return usable;
+}
+
+ChainBus::Health DynamixelBus::TakeHealth(std::size_t servo,
+                                          std::span<const std::byte> data) noexcept {
+  const Range from = RangeOf(Block::kHealth);
+  const auto slow_speed =
+      SpeedOf(static_cast<std::int32_t>(config().servos[servo].arrive_speed_per_s));
+  const auto units = static_cast<std::uint32_t>(dynamixel_.watchdog / kWatchdogUnit);
+  return {.torque = Get(data, from, x::kTorqueEnable) != 0,
+          .goal = std::bit_cast<std::int32_t>(Get(data, from, x::kGoalPosition)),
+          .slow = Get(data, from, x::kProfileVelocity) == slow_speed,
+          .watched = Get(data, from, x::kBusWatchdog) == units,
+          .faults = FaultsFrom(Get(data, from, x::kHardwareError))};
+}
+
+ChainBus::Reading DynamixelBus::TakeStatus(std::size_t servo,
+                                           std::span<const std::byte> data) noexcept {
+  const Range from = RangeOf(Block::kStatus);
+  const auto load = static_cast<std::int16_t>(Get(data, from, x::kPresentLoad));
+  const auto full = full_current_[servo] != 0 ? static_cast<float>(full_current_[servo]) : 1000.0F;
+  return {.position = std::bit_cast<std::int32_t>(Get(data, from, x::kPresentPosition)),
+          .temperature_c = static_cast<float>(Get(data, from, x::kPresentTemperature)),
+          .load = static_cast<float>(load) / full,
+          .voltage_v = static_cast<float>(Get(data, from, x::kPresentVoltage)) * 0.1F,
+          .faults = std::nullopt};
+}
+
+Result<std::span<const std::byte>> DynamixelBus::MakeSetting(std::uint8_t id, Setting setting,
+                                                             std::int32_t value,
+                                                             std::span<std::byte> out) noexcept {
+  const auto write = [&](dxl::Register what, std::int32_t least, std::int32_t most,
+                         std::uint32_t raw) -> Result<std::span<const std::byte>> {
+    if (id > dxl::kMaxId || value < least || value > most) return Errc::kOutOfRange;
+    const auto bytes = Bytes(raw);
+    return dxl::Write(id, what.address, std::span(bytes).first(what.bytes), out);
+  };
+  const auto raw = static_cast<std::uint32_t>(value);
+  switch (setting) {
+    case Setting::kOperatingMode:
+      return write(x::kOperatingMode, 0, 16, raw);
+    case Setting::kMinPosition:
+      return write(x::kMinPosition, 0, dxl::kCountsPerTurn - 1, raw);
+    case Setting::kMaxPosition:
+      return write(x::kMaxPosition, 0, dxl::kCountsPerTurn - 1, raw);
+    case Setting::kShutdown:
+      return write(x::kShutdown, 0, 0x1F, FaultsTo(static_cast<HardwareFaults>(value)));
+    case Setting::kReturnDelay:
+      return write(x::kReturnDelay, 0, 508, raw / 2);
+    case Setting::kBaudRate:
+      return write(x::kBaudRate, 0, 7, raw);
+    case Setting::kProfileUnit:
+    case Setting::kLock:
+    case Setting::kPulseRange:
+    case Setting::kSerialErrors:
+      return Errc::kUnsupported;
+  }
+  return Errc::kUnsupported;
+}
+
+}  // namespace facewire::bus
