@@ -19,7 +19,8 @@ bool IsSane(const ServoConfig& servo, std::uint8_t max_id) noexcept {
   return servo.id <= max_id && std::isfinite(servo.min) && std::isfinite(servo.max) &&
          std::abs(servo.min) <= kMostCounts && std::abs(servo.max) <= kMostCounts &&
          std::ceil(servo.min) <= std::floor(servo.max) && servo.arrive_speed_per_s >= 1 &&
-         servo.arrive_speed_per_s <= kMostCounts;
+         servo.arrive_speed_per_s <= kMostCounts && servo.arrive_acceleration_per_s2 >= 0 &&
+         servo.arrive_acceleration_per_s2 <= kMostCounts;
 }
 
 }  // namespace
@@ -106,9 +107,7 @@ Result<> ChainBus::Reboot(std::size_t servo) noexcept {
 ChainBus::Goal ChainBus::GoalOf(std::size_t i) const noexcept {
   const Member& m = members_[i];
   const bool slow = m.arriving || feedback_[i].state == ServoState::kArming;
-  return {.id = config_.servos[i].id,
-          .counts = m.goal.value_or(m.sent),
-          .speed = slow ? static_cast<std::int32_t>(config_.servos[i].arrive_speed_per_s) : 0};
+  return {.servo = i, .id = config_.servos[i].id, .counts = m.goal.value_or(m.sent), .slow = slow};
 }
 
 void ChainBus::Obey(std::span<const ServoCommand> commands) noexcept {
@@ -225,7 +224,7 @@ void ChainBus::WriteGoals(Time now, PacketBuffer& out) noexcept {
     if (m.hurry) {
       m.hurry = false;
       m.sent_at.reset();
-      out.Took(MakeSpeed(goal, out.rest()));
+      out.Took(MakePace(goal, out.rest()));
     }
     if (goal.counts == m.sent && !Due(m.sent_at, config_.refresh, now)) continue;
     m.sent = goal.counts;

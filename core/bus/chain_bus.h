@@ -44,9 +44,10 @@ class ChainBus : public ServoBus {
     kStatus,    // what it does
   };
   struct Goal {
+    std::size_t servo = 0;  // index
     std::uint8_t id = 0;
     std::int32_t counts = 0;
-    std::int32_t speed = 0;  // counts/s; 0: as fast as it can
+    bool slow = false;  // by arrive_speed_per_s and arrive_acceleration_per_s2
   };
   struct Answer {
     std::uint8_t id = 0;
@@ -87,7 +88,7 @@ class ChainBus : public ServoBus {
   virtual std::size_t MakeGoals(std::span<const Goal> goals, std::span<std::byte> out) noexcept = 0;
   // All that has to be known to a servo before it may get torque.
   virtual std::size_t MakeArming(const Goal& goal, std::span<std::byte> out) noexcept = 0;
-  virtual std::size_t MakeSpeed(const Goal& goal, std::span<std::byte> out) noexcept = 0;
+  virtual std::size_t MakePace(const Goal& goal, std::span<std::byte> out) noexcept = 0;
   virtual std::size_t MakeTorque(std::span<const std::uint8_t> ids, bool on,
                                  std::span<std::byte> out) noexcept = 0;
   virtual std::size_t MakeRelease(std::span<std::byte> out) noexcept = 0;

@@ -15,6 +15,10 @@ constexpr Duration kWatchdogUnit = std::chrono::milliseconds(20);
 constexpr unsigned kTimeProfile = 1U << 2U;  // of the drive mode
 // 0.229 rev/min in counts/s.
 constexpr float kCountsPerSpeed = 0.229F * dxl::kCountsPerTurn / 60;
+// 214.577 rev/min^2 in counts/s^2.
+constexpr float kCountsPerAcceleration = 214.577F * dxl::kCountsPerTurn / 3600;
+constexpr dxl::Register kProfile{x::kProfileAcceleration.address,
+                                 x::kProfileAcceleration.bytes + x::kProfileVelocity.bytes};
 constexpr std::size_t kStatusFrame = 11;  // FF FF FD 00 id length 55 error ... CRC
 
 struct Range {
@@ -56,10 +60,9 @@ std::array<std::byte, 4> Bytes(std::uint32_t value) noexcept {
   return bytes;
 }
 
-std::uint32_t SpeedOf(std::int32_t counts_per_s) noexcept {
-  if (counts_per_s <= 0) return 0;  // unlimited
-  return std::max(1U, static_cast<std::uint32_t>(
-                          std::lround(static_cast<float>(counts_per_s) / kCountsPerSpeed)));
+// At least one step: 0 would be unlimited.
+std::uint32_t Steps(float value, float step) noexcept {
+  return static_cast<std::uint32_t>(std::max(1L, std::lround(value / step)));
 }
 
 struct FaultPair {
@@ -90,17 +93,19 @@ std::uint32_t FaultsTo(HardwareFaults faults) noexcept {
   return bits;
 }
 
+std::size_t SizeOf(const dxl::Packet& packet) noexcept { return packet ? packet->size() : 0; }
+
 // One register of one servo, without a reply.
-std::size_t Tell(std::uint8_t id, dxl::Register what, std::uint32_t value,
+std::size_t Tell(std::uint8_t id, dxl::Register what, std::span<const std::byte> value,
                  std::span<std::byte> out) noexcept {
   dxl::SyncWrite write(what.address, what.bytes, out);
-  const auto bytes = Bytes(value);
-  (void)write.Add(id, std::span(bytes).first(what.bytes));
-  const auto packet = write.Finish();
-  return packet ? packet->size() : 0;
+  (void)write.Add(id, value.first(what.bytes));
+  return SizeOf(write.Finish());
 }
-
-std::size_t SizeOf(const dxl::Packet& packet) noexcept { return packet ? packet->size() : 0; }
+std::size_t Tell(std::uint8_t id, dxl::Register what, std::uint32_t value,
+                 std::span<std::byte> out) noexcept {
+  return Tell(id, what, Bytes(value), out);
+}
 
 }  // namespace
 
@@ -129,15 +134,27 @@ std::size_t DynamixelBus::MakeArming(const Goal& goal, std::span<std::byte> out)
   const auto units = static_cast<std::uint32_t>(dynamixel_.watchdog / kWatchdogUnit);
   // A watchdog that has tripped keeps the goal from being written until it is cleared.
   std::size_t used = Tell(goal.id, x::kBusWatchdog, 0, out);
-  used += Tell(goal.id, x::kProfileVelocity, SpeedOf(goal.speed), out.subspan(used));
+  used += Tell(goal.id, kProfile, ProfileOf(goal.servo, goal.slow), out.subspan(used));
   used +=
       Tell(goal.id, x::kGoalPosition, std::bit_cast<std::uint32_t>(goal.counts), out.subspan(used));
   used += Tell(goal.id, x::kBusWatchdog, units, out.subspan(used));
   return used;
 }
 
-std::size_t DynamixelBus::MakeSpeed(const Goal& goal, std::span<std::byte> out) noexcept {
-  return Tell(goal.id, x::kProfileVelocity, SpeedOf(goal.speed), out);
+std::size_t DynamixelBus::MakePace(const Goal& goal, std::span<std::byte> out) noexcept {
+  return Tell(goal.id, kProfile, ProfileOf(goal.servo, goal.slow), out);
+}
+
+std::array<std::byte, 8> DynamixelBus::ProfileOf(std::size_t servo, bool slow) const noexcept {
+  std::array<std::byte, 8> profile{};  // zeros: no limits
+  if (!slow) return profile;
+  const ServoConfig& config = this->config().servos[servo];
+  if (config.arrive_acceleration_per_s2 > 0) {
+    std::ranges::copy(Bytes(Steps(config.arrive_acceleration_per_s2, kCountsPerAcceleration)),
+                      profile.begin());
+  }
+  std::ranges::copy(Bytes(Steps(config.arrive_speed_per_s, kCountsPerSpeed)), profile.begin() + 4);
+  return profile;
 }
 
 std::size_t DynamixelBus::MakeTorque(std::span<const std::uint8_t> ids, bool on,
@@ -221,12 +238,11 @@ bool DynamixelBus::TakeSettings(std::size_t servo, std::span<const std::byte> da
 ChainBus::Health DynamixelBus::TakeHealth(std::size_t servo,
                                           std::span<const std::byte> data) noexcept {
   const Range from = RangeOf(Block::kHealth);
-  const auto slow_speed =
-      SpeedOf(static_cast<std::int32_t>(config().servos[servo].arrive_speed_per_s));
   const auto units = static_cast<std::uint32_t>(dynamixel_.watchdog / kWatchdogUnit);
   return {.torque = Get(data, from, x::kTorqueEnable) != 0,
           .goal = std::bit_cast<std::int32_t>(Get(data, from, x::kGoalPosition)),
-          .slow = Get(data, from, x::kProfileVelocity) == slow_speed,
+          .slow = std::ranges::equal(data.subspan(kProfile.address - from.address, kProfile.bytes),
+                                     ProfileOf(servo, true)),
           .watched = Get(data, from, x::kBusWatchdog) == units,
           .faults = FaultsFrom(Get(data, from, x::kHardwareError))};
 }

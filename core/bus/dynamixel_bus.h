@@ -1,6 +1,7 @@
 #ifndef FACEWIRE_CORE_BUS_DYNAMIXEL_BUS_H_
 #define FACEWIRE_CORE_BUS_DYNAMIXEL_BUS_H_
 
+#include <array>
 #include <chrono>
 
 #include "core/bus/chain_bus.h"
@@ -41,7 +42,7 @@ class DynamixelBus final : public ChainBus {
  private:
   std::size_t MakeGoals(std::span<const Goal> goals, std::span<std::byte> out) noexcept override;
   std::size_t MakeArming(const Goal& goal, std::span<std::byte> out) noexcept override;
-  std::size_t MakeSpeed(const Goal& goal, std::span<std::byte> out) noexcept override;
+  std::size_t MakePace(const Goal& goal, std::span<std::byte> out) noexcept override;
   std::size_t MakeTorque(std::span<const std::uint8_t> ids, bool on,
                          std::span<std::byte> out) noexcept override;
   std::size_t MakeRelease(std::span<std::byte> out) noexcept override;
@@ -56,6 +57,9 @@ class DynamixelBus final : public ChainBus {
   bool TakeSettings(std::size_t servo, std::span<const std::byte> data) noexcept override;
   Health TakeHealth(std::size_t servo, std::span<const std::byte> data) noexcept override;
   Reading TakeStatus(std::size_t servo, std::span<const std::byte> data) noexcept override;
+
+  // The eight bytes of a servo's profile, acceleration first.
+  std::array<std::byte, 8> ProfileOf(std::size_t servo, bool slow) const noexcept;
 
   DynamixelConfig dynamixel_;
   wire::dynamixel::StatusReader reader_;

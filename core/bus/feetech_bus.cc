@@ -13,6 +13,7 @@ namespace sts = wire::feetech::sts;
 
 constexpr std::size_t kStatusFrame = 6;    // FF FF id length errors ... sum
 constexpr std::uint8_t kCoarseSpeed = 50;  // counts/s
+constexpr float kAccelerationUnit = 100;   // counts/s^2
 
 struct Range {
   std::uint8_t address;
@@ -88,11 +89,18 @@ Result<> FeetechBus::Configure(const FeetechConfig& config) noexcept {
   return {};
 }
 
-std::uint16_t FeetechBus::SpeedOf(std::uint8_t id, std::int32_t counts_per_s) const noexcept {
-  const std::int32_t wanted = counts_per_s > 0 ? std::min(counts_per_s, feetech_.full_speed_per_s)
-                                               : feetech_.full_speed_per_s;
+std::uint16_t FeetechBus::SpeedOf(std::size_t servo, bool slow) const noexcept {
+  const std::int32_t full = feetech_.full_speed_per_s;
+  const auto arriving = static_cast<std::int32_t>(config().servos[servo].arrive_speed_per_s);
   // Never 0, which may mean full speed; rounded down, as it is a limit.
-  return static_cast<std::uint16_t>(std::max(1, wanted / counts_per_speed_[id]));
+  const std::int32_t speed = slow ? std::min(arriving, full) : full;
+  return static_cast<std::uint16_t>(std::max(1, speed / counts_per_speed_[servo]));
+}
+
+std::uint8_t FeetechBus::AccelerationOf(std::size_t servo, bool slow) const noexcept {
+  const float arriving = config().servos[servo].arrive_acceleration_per_s2;
+  if (!slow || arriving <= 0) return feetech_.acceleration;
+  return static_cast<std::uint8_t>(std::clamp(arriving / kAccelerationUnit, 1.0F, 254.0F));
 }
 
 std::size_t FeetechBus::MakeGoals(std::span<const Goal> goals, std::span<std::byte> out) noexcept {
@@ -106,10 +114,10 @@ std::size_t FeetechBus::MakeGoals(std::span<const Goal> goals, std::span<std::by
     while (!goals.empty()) {
       const Goal& goal = goals.front();
       std::array<std::byte, 7> record{};
-      record[0] = static_cast<std::byte>(feetech_.acceleration);
+      record[0] = static_cast<std::byte>(AccelerationOf(goal.servo, goal.slow));
       ft::Put16(ft::ToSignMagnitude(goal.counts, ft::kPositionSign), order(),
                 std::span(record).subspan(1));
-      ft::Put16(SpeedOf(goal.id, goal.speed), order(), std::span(record).subspan(5));
+      ft::Put16(SpeedOf(goal.servo, goal.slow), order(), std::span(record).subspan(5));
       if (!write.Add(goal.id, std::span(record).subspan(skip))) break;
       goals = goals.subspan(1);
     }
@@ -124,8 +132,8 @@ std::size_t FeetechBus::MakeArming(const Goal& goal, std::span<std::byte> out) n
   return MakeGoals(std::span(&goal, 1), out);
 }
 
-// Every goal carries its speed.
-std::size_t FeetechBus::MakeSpeed(const Goal& /*goal*/, std::span<std::byte> /*out*/) noexcept {
+// Every goal carries its pace.
+std::size_t FeetechBus::MakePace(const Goal& /*goal*/, std::span<std::byte> /*out*/) noexcept {
   return 0;
 }
 
@@ -198,7 +206,7 @@ bool FeetechBus::TakeSettings(std::size_t servo, std::span<const std::byte> data
     compare(Setting::kShutdown, shutdown, feetech_.shutdown,
             (feetech_.shutdown & ~unsigned{shutdown}) == 0, false);
     const bool fine = (Get8(data, from, sts::kPhase) & ft::kPhaseFineSpeed) != 0;
-    counts_per_speed_[wanted.id] = fine ? 1 : kCoarseSpeed;
+    counts_per_speed_[servo] = fine ? 1 : kCoarseSpeed;
   }
   return usable;
 }
@@ -206,7 +214,6 @@ bool FeetechBus::TakeSettings(std::size_t servo, std::span<const std::byte> data
 ChainBus::Health FeetechBus::TakeHealth(std::size_t servo,
                                         std::span<const std::byte> data) noexcept {
   const Range from = RangeOf(Block::kHealth);
-  const std::uint8_t id = config().servos[servo].id;
   const std::uint16_t speed = ft::Get16(Part(data, from, sts::kGoalSpeed), order());
   const std::int32_t lock = Get8(data, from, sts() ? sts::kLock : ft::scs::kLock);
   Compare({.servo = static_cast<std::uint8_t>(servo),
@@ -215,12 +222,10 @@ ChainBus::Health FeetechBus::TakeHealth(std::size_t servo,
            .wanted = 1,
            .refused = false},
           lock == 1);
-  const std::uint16_t slow =
-      SpeedOf(id, static_cast<std::int32_t>(config().servos[servo].arrive_speed_per_s));
   return {.torque = Get8(data, from, sts::kTorqueEnable) != 0,
           .goal = ft::FromSignMagnitude(ft::Get16(Part(data, from, sts::kGoalPosition), order()),
                                         ft::kPositionSign),
-          .slow = speed == slow,
+          .slow = speed == SpeedOf(servo, true),
           .watched = true,
           .faults = FaultsFrom(errors_)};
 }

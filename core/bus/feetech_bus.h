@@ -42,7 +42,7 @@ class FeetechBus final : public ChainBus {
  private:
   std::size_t MakeGoals(std::span<const Goal> goals, std::span<std::byte> out) noexcept override;
   std::size_t MakeArming(const Goal& goal, std::span<std::byte> out) noexcept override;
-  std::size_t MakeSpeed(const Goal& goal, std::span<std::byte> out) noexcept override;
+  std::size_t MakePace(const Goal& goal, std::span<std::byte> out) noexcept override;
   std::size_t MakeTorque(std::span<const std::uint8_t> ids, bool on,
                          std::span<std::byte> out) noexcept override;
   std::size_t MakeRelease(std::span<std::byte> out) noexcept override;
@@ -62,12 +62,13 @@ class FeetechBus final : public ChainBus {
   wire::feetech::ByteOrder order() const noexcept {
     return sts() ? wire::feetech::ByteOrder::kLowFirst : wire::feetech::ByteOrder::kHighFirst;
   }
-  std::uint16_t SpeedOf(std::uint8_t id, std::int32_t counts_per_s) const noexcept;
+  std::uint16_t SpeedOf(std::size_t servo, bool slow) const noexcept;
+  std::uint8_t AccelerationOf(std::size_t servo, bool slow) const noexcept;
 
   FeetechConfig feetech_;
   wire::feetech::StatusReader reader_;
-  std::uint8_t errors_ = 0;                           // of the answer that is being taken
-  std::array<std::uint8_t, 256> counts_per_speed_{};  // by id
+  std::uint8_t errors_ = 0;  // of the answer that is being taken
+  std::array<std::uint8_t, kMaxServos> counts_per_speed_{};
 };
 
 }  // namespace facewire::bus

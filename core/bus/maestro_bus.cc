@@ -10,8 +10,8 @@ namespace {
 
 namespace maestro = wire::maestro;
 
-constexpr float kShortest_us = 64;  // what a Maestro can be told to send
-constexpr float kLongest_us = 4080;
+constexpr float kShortestUs = 64;  // what a Maestro can be told to send
+constexpr float kLongestUs = 4080;
 // A board that ended the pulses by itself had a reason; the motion then starts anew.
 constexpr Duration kLetGo = std::chrono::milliseconds(500);
 // A pulse differs from its target while a speed limit of the board's own is at work.
@@ -34,8 +34,8 @@ Result<> MaestroBus::Configure(const MaestroConfig& config) noexcept {
   }
   for (std::size_t i = 0; i < servos.size(); ++i) {
     const ServoConfig& servo = servos[i];
-    if (servo.id >= maestro::kMaxChannels || !(servo.min >= kShortest_us) ||
-        !(servo.max <= kLongest_us) ||
+    if (servo.id >= maestro::kMaxChannels || !(servo.min >= kShortestUs) ||
+        !(servo.max <= kLongestUs) ||
         std::ceil(servo.min * maestro::kStepsPerMicrosecond) >
             std::floor(servo.max * maestro::kStepsPerMicrosecond)) {
       return Errc::kOutOfRange;
@@ -229,8 +229,9 @@ std::span<const std::byte> MaestroBus::Tick(Time now,
   if (channels_.empty()) return {};
   if (deadline_ && now >= *deadline_) Lost(now);
   Obey(commands, now);
-  // Replies have their own wire here: what needs none is never held back.
-  if (stage_ == Stage::kServe) WriteTargets(now, false);
+  // Replies have their own wire here: what needs none is never held back. A board that fell silent
+  // may still hear, and is told to let go.
+  if (stage_ == Stage::kServe || knocked_) WriteTargets(now, false);
   WriteQuestion(now);
   Summarise(now);
   return out_.bytes();

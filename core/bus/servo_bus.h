@@ -25,6 +25,7 @@ struct ServoConfig {
   // How fast a servo that has just got its torque goes to where it is told to be, until it is
   // there; kept by the servo itself, where the bus has a means for it. > 0.
   float arrive_speed_per_s = 400;
+  float arrive_acceleration_per_s2 = 2000;  // 0: unlimited
   GuardConfig guard{};
 };
 
@@ -43,7 +44,8 @@ struct BusConfig {
 };
 
 struct ServoCommand {
-  // NaN: as before. Without torque of no meaning.
+  // NaN or infinite: as before. Without torque of no meaning; with torque, but not a single number
+  // yet, the servo stays limp.
   float position = std::numeric_limits<float>::quiet_NaN();
   bool torque = false;
 };

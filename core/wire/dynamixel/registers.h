@@ -33,11 +33,12 @@ inline constexpr Register kShutdown{63, 1};          // HardwareError bits that 
 
 // RAM.
 inline constexpr Register kTorqueEnable{64, 1};
-inline constexpr Register kStatusReturn{68, 1};      // 0: ping only, 1: reads too, 2: all
-inline constexpr Register kHardwareError{70, 1};     // HardwareError bits, until a reboot
-inline constexpr Register kBusWatchdog{98, 1};       // 20 ms; 0: off, clears; FF: has tripped
-inline constexpr Register kProfileVelocity{112, 4};  // 0.229 rev/min; 0: unlimited
-inline constexpr Register kGoalPosition{116, 4};     // counts
+inline constexpr Register kStatusReturn{68, 1};          // 0: ping only, 1: reads too, 2: all
+inline constexpr Register kHardwareError{70, 1};         // HardwareError bits, until a reboot
+inline constexpr Register kBusWatchdog{98, 1};           // 20 ms; 0: off, clears; FF: has tripped
+inline constexpr Register kProfileAcceleration{108, 4};  // 214.577 rev/min^2; 0: unlimited
+inline constexpr Register kProfileVelocity{112, 4};      // 0.229 rev/min; 0: unlimited
+inline constexpr Register kGoalPosition{116, 4};         // counts
 inline constexpr Register kPresentLoad{126, 2};  // signed, 0.1 %; current in mA (or 2.69 mA) where
                                                  // the model has a current sensor
 inline constexpr Register kPresentPosition{132, 4};     // counts, signed

@@ -295,11 +295,13 @@ TYPED_TEST(ChainBusTest, AServoFarFromItsGoalGoesThereSlowlyAndThenFollows) {
     c.peer.Move(4);
     if (c.servo(1).torque && c.servo(1).position > 3060) {
       ASSERT_EQ(c.servo(1).speed, TypeParam::kSlow) << c.servo(1).position;
+      ASSERT_EQ(c.servo(1).acceleration, TypeParam::kGentle);
     }
   }
   c.Run(milliseconds(1500));
   EXPECT_EQ(c.servo(1).position, 3000);
   EXPECT_EQ(c.servo(1).speed, TypeParam::kFast);
+  EXPECT_EQ(c.servo(1).acceleration, 0);
 }
 
 TYPED_TEST(ChainBusTest, TorqueOffIsRepeatedUntilTheServoSaysSo) {

@@ -21,6 +21,7 @@ struct PeerServo {
   int position = 2048;
   int goal = 0;   // what a servo wakes up with, and must never go to
   int speed = 0;  // its register
+  int acceleration = 0;
   int watchdog = 0;
   int temperature = 30;
   int load = 0;    // 0.1 %

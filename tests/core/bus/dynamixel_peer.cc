@@ -29,7 +29,8 @@ void DynamixelPeer::Write(int id, int address, std::span<const std::byte> data) 
   PeerServo* servo = Find(id);
   if (servo == nullptr || servo->deaf) return;
   int value = 0;
-  for (std::size_t i = 0; i < data.size(); ++i) value |= At(data, i) << (8 * static_cast<int>(i));
+  for (std::size_t i = 0; i < data.size() && i < 4; ++i)
+    value |= At(data, i) << (8 * static_cast<int>(i));
   const bool tripped = servo->watchdog == 255;
   switch (address) {
     case 64:
@@ -40,7 +41,9 @@ void DynamixelPeer::Write(int id, int address, std::span<const std::byte> data) 
       Note(Written::What::kWatchdog, id, value, *servo);
       servo->watchdog = value;
       break;
-    case 112:
+    case 108:  // acceleration and velocity
+      servo->acceleration = At(data, 0) | At(data, 1) << 8;
+      value = At(data, 4) | At(data, 5) << 8;
       Note(Written::What::kSpeed, id, value, *servo);
       servo->speed = value;
       break;
@@ -73,6 +76,7 @@ Bytes DynamixelPeer::Reply(int id, int error, int address, int length) {
   put(68, 1, 2);
   put(70, 1, servo.errors);
   put(98, 1, servo.watchdog);
+  put(108, 4, servo.acceleration);
   put(112, 4, servo.speed);
   put(116, 4, servo.goal);
   put(126, 2, servo.load);

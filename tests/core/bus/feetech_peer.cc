@@ -23,6 +23,7 @@ void FeetechPeer::Write(int id, int address, std::span<const std::byte> data) {
     servo->torque = At(data, 0) != 0;
   }
   if (address == 41 && !scs) {
+    servo->acceleration = At(data, 0);
     data = data.subspan(1);
     address = 42;
   }

@@ -242,6 +242,18 @@ TEST(MaestroBus, ABoardThatFallsSilentIsAFaultUntilItIsBack) {
   EXPECT_EQ(c.feedback(0).state, ServoState::kOn);
 }
 
+TEST(MaestroBus, ABoardThatIsNotHeardAnyMoreIsToldToLetGo) {
+  Context c;
+  c.RunUp();
+  c.board.answers = false;
+  c.Run(milliseconds(2000));
+  EXPECT_EQ(c.bus.status().fault, BusFault::kNobodyAnswers);
+  for (const auto& [channel, pulse] : c.board.pulses) EXPECT_EQ(pulse, 0);
+  c.board.answers = true;
+  c.Run(milliseconds(3000));
+  for (const int channel : {0, 1, 2, 5}) EXPECT_EQ(c.board.pulses[channel], 6000);
+}
+
 TEST(MaestroBus, AReplyThatComesLateIsNotTakenForTheNext) {
   Context c;
   c.RunUp();
