@@ -178,7 +178,7 @@ void ChainBus::WriteOff(Time now, PacketBuffer& out) noexcept {
     const Duration interval = state(i) == ServoState::kAbsent ? config_.retry : config_.refresh;
     if (!Due(m.off_at, interval, now)) continue;
     m.off_at = now;
-    m.look_now = true;
+    LookSoon(m);
     (void)ids.try_push(config_.servos[i].id);
   }
   if (!ids.empty()) out.Took(MakeTorque(ids.span(), false, out.rest()));
@@ -204,11 +204,11 @@ void ChainBus::WriteArming(Time now, PacketBuffer& out) noexcept {
       m.sent = goal.counts;
       m.sent_at = now;
       m.prepared = true;
-      m.look_now = true;
+      LookSoon(m);
       out.Took(MakeArming(goal, out.rest()));
     } else if (m.confirmed && !m.torque_sent) {
       m.torque_sent = true;
-      m.look_now = true;
+      LookSoon(m);
       const std::array ids = {config_.servos[i].id};
       out.Took(MakeTorque(ids, true, out.rest()));
     }

@@ -37,7 +37,8 @@ class ChainBus : public ServoBus {
   BusTraits traits() const noexcept final { return {.step = 1, .reads_back = true}; }
 
  protected:
-  // The registers that are asked for together.
+  // The registers that belong together. Where a servo has gaps between them, a block has parts,
+  // which are asked for one after the other.
   enum class Block : std::uint8_t {
     kSettings,  // EEPROM, once after a servo was found
     kHealth,    // what was told to it: torque, goal, speed, watchdog
@@ -94,16 +95,20 @@ class ChainBus : public ServoBus {
   virtual std::size_t MakeRelease(std::span<std::byte> out) noexcept = 0;
   virtual std::size_t MakeReboot(std::uint8_t id, std::span<std::byte> out) noexcept = 0;
   // From here on answers to this question, and only these, are returned by NextAnswer.
-  virtual std::size_t MakeQuestion(Block block, std::span<const std::uint8_t> ids,
+  virtual std::size_t MakeQuestion(Block block, std::size_t part, std::span<const std::uint8_t> ids,
                                    std::span<std::byte> out) noexcept = 0;
   virtual std::optional<Answer> NextAnswer(std::span<const std::byte>& bytes) noexcept = 0;
   virtual void ForgetAnswers() noexcept = 0;
-  virtual std::size_t AnswerBytes(Block block) const noexcept = 0;
+  virtual std::size_t Parts(Block block) const noexcept = 0;
+  virtual std::size_t AnswerBytes(Block block, std::size_t part) const noexcept = 0;
   virtual std::size_t MostAsked() const noexcept = 0;  // servos in one question
   virtual bool Echoes() const noexcept = 0;
   // Whether the servo may move; all of them go to Compare.
-  virtual bool TakeSettings(std::size_t servo, std::span<const std::byte> data) noexcept = 0;
-  virtual Health TakeHealth(std::size_t servo, std::span<const std::byte> data) noexcept = 0;
+  virtual bool TakeSettings(std::size_t servo, std::size_t part,
+                            std::span<const std::byte> data) noexcept = 0;
+  // Adds what this part says.
+  virtual void TakeHealth(std::size_t servo, std::size_t part, std::span<const std::byte> data,
+                          Health& health) noexcept = 0;
   virtual Reading TakeStatus(std::size_t servo, std::span<const std::byte> data) noexcept = 0;
 
   struct Member {
@@ -127,6 +132,9 @@ class ChainBus : public ServoBus {
     std::optional<std::int32_t> reading;  // the last one
     std::optional<Time> looked_at, tried_at;
     bool look_now = false;
+    std::uint8_t settings_part = 0, look_part = 0;  // the next ones
+    bool unusable = false;                          // so far
+    Health health;                                  // of the parts so far
     std::uint8_t lost_in_row = 0;
   };
 
@@ -134,6 +142,11 @@ class ChainBus : public ServoBus {
   Goal GoalOf(std::size_t i) const noexcept;
   void Forget(std::size_t i) noexcept;
   void Drop(std::size_t i) noexcept;  // ends its torque with the next tick
+  // Something was told to it: kHealth is read from its beginning.
+  static void LookSoon(Member& member) noexcept {
+    member.look_now = true;
+    member.look_part = 0;
+  }
 
   void Obey(std::span<const ServoCommand> commands) noexcept;
   void WriteOff(Time now, PacketBuffer& out) noexcept;
@@ -146,10 +159,11 @@ class ChainBus : public ServoBus {
   bool PickLook(Time now, bool only_urgent) noexcept;
   bool PickStatus() noexcept;
   bool PickAbsent(Time now) noexcept;
-  void PickOne(Block block, std::size_t i) noexcept;
+  void PickOne(Block block, std::size_t part, std::size_t i) noexcept;
   void GiveUpReplies() noexcept;
 
   void Took(std::size_t i, std::span<const std::byte> data, Time now) noexcept;
+  void TookSettings(std::size_t i, std::span<const std::byte> data) noexcept;
   void TookHealth(std::size_t i, const Health& health, Time now) noexcept;
   void TookReading(std::size_t i, const Reading& reading, Time now) noexcept;
   void Summarise(Time now) noexcept;
@@ -159,7 +173,8 @@ class ChainBus : public ServoBus {
   InlineVector<ServoFeedback, kMaxServos> feedback_;
   BusStatus status_;
 
-  Block block_ = Block::kStatus;                  // of the question that is out, or picked
+  Block block_ = Block::kStatus;  // of the question that is out, or picked
+  std::size_t part_ = 0;
   InlineVector<std::uint8_t, kMaxServos> asked_;  // indices; those that have not answered
   bool asking_ = false;                           // a question is out
   std::optional<Time> deadline_;                  // nothing is said before
@@ -168,7 +183,7 @@ class ChainBus : public ServoBus {
   std::optional<Time> torque_at_;                 // somebody got torque
   std::size_t turn_ = 0;                          // of the servos, for kStatus
   std::size_t look_turn_ = 0;                     // for kHealth
-  bool looked_last_ = false;
+  int looks_in_row_ = 0;
   PacketBuffer out_;
 };
 

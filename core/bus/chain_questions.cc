@@ -10,6 +10,7 @@ namespace {
 
 // Two readings of a servo at rest differ by less, and damage that a checksum missed by more.
 constexpr std::int32_t kAgree = 64;  // counts, 5.6 degrees
+constexpr int kLooksInRow = 3;
 
 bool Due(const std::optional<Time>& last, Duration interval, Time now) noexcept {
   return !last || Between(*last, now) >= interval;
@@ -21,32 +22,38 @@ constexpr bool IsThere(ServoState state) noexcept {
 
 }  // namespace
 
-void ChainBus::PickOne(Block block, std::size_t i) noexcept {
+void ChainBus::PickOne(Block block, std::size_t part, std::size_t i) noexcept {
   block_ = block;
+  part_ = part;
   asked_.clear();
   (void)asked_.try_push(static_cast<std::uint8_t>(i));
 }
 
-// kHealth of those that wait for it, several at once.
+// The next part of kHealth of those that wait for it, several at once.
 bool ChainBus::PickLook(Time now, bool only_urgent) noexcept {
   asked_.clear();
   for (std::size_t n = 0; n < members_.size() && asked_.size() < MostAsked(); ++n) {
     const std::size_t i = (look_turn_ + n) % members_.size();
     const Member& m = members_[i];
     if (state(i) == ServoState::kAbsent || (IsThere(state(i)) && !m.settings_read)) continue;
-    if (!m.look_now && (only_urgent || !Due(m.looked_at, config_.look_after, now))) continue;
+    const bool due = m.look_part != 0 || Due(m.looked_at, config_.look_after, now);
+    if (!m.look_now && (only_urgent || !due)) continue;
     // In a row of answers each servo waits for the one before it: one that may be gone is asked
     // alone, or it would silence the others.
     if (m.lost_in_row != 0) {
       if (!asked_.empty()) continue;
-      PickOne(Block::kHealth, i);
+      PickOne(Block::kHealth, m.look_part, i);
       break;
     }
-    block_ = Block::kHealth;
-    (void)asked_.try_push(static_cast<std::uint8_t>(i));
+    if (asked_.empty()) {
+      block_ = Block::kHealth;
+      part_ = m.look_part;
+    }
+    if (m.look_part == part_) (void)asked_.try_push(static_cast<std::uint8_t>(i));
   }
   if (asked_.empty()) return false;
-  look_turn_ = asked_[asked_.size() - 1] + 1U;
+  // Who has parts left is first in turn again.
+  if (part_ + 1 == Parts(Block::kHealth)) look_turn_ = asked_[asked_.size() - 1] + 1U;
   return true;
 }
 
@@ -58,6 +65,7 @@ bool ChainBus::PickStatus() noexcept {
     const bool alone = members_[i].lost_in_row != 0;
     if (alone && !asked_.empty()) break;
     block_ = Block::kStatus;
+    part_ = 0;
     (void)asked_.try_push(static_cast<std::uint8_t>(i));
     if (alone) break;
   }
@@ -69,7 +77,7 @@ bool ChainBus::PickStatus() noexcept {
 bool ChainBus::PickAbsent(Time now) noexcept {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (state(i) == ServoState::kAbsent && !members_[i].tried_at) {
-      PickOne(Block::kSettings, i);
+      PickOne(Block::kSettings, 0, i);
       return true;
     }
   }
@@ -83,22 +91,23 @@ bool ChainBus::PickAbsent(Time now) noexcept {
   }
   if (!longest) return false;
   hunted_ = now;
-  PickOne(Block::kSettings, *longest);
+  PickOne(Block::kSettings, 0, *longest);
   return true;
 }
 
 bool ChainBus::PickQuestion(Time now) noexcept {
   if (PickAbsent(now)) return true;
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (state(i) == ServoState::kChecking && !members_[i].settings_read) {
-      PickOne(Block::kSettings, i);
-      return true;
-    }
+    const Member& m = members_[i];
+    if (m.settings_part == 0 && (state(i) != ServoState::kChecking || m.settings_read)) continue;
+    PickOne(Block::kSettings, m.settings_part, i);
+    return true;
   }
-  // Who waits for torque is looked at first, but never twice in a row: positions get old.
-  if (!looked_last_ && PickLook(now, true)) return looked_last_ = true;
-  if (!looked_last_ && PickLook(now, false)) return looked_last_ = true;
-  looked_last_ = false;
+  // Who waits for torque is looked at first, but not for ever: positions get old.
+  ++looks_in_row_;
+  if (looks_in_row_ <= kLooksInRow && PickLook(now, true)) return true;
+  if (looks_in_row_ <= 1 && PickLook(now, false)) return true;
+  looks_in_row_ = 0;
   return PickStatus() || PickLook(now, false);
 }
 
@@ -111,14 +120,14 @@ bool ChainBus::WriteQuestion(Time now, PacketBuffer& out) noexcept {
     (void)ids.try_push(config_.servos[i].id);
   }
   const std::size_t before = out.size();
-  const std::size_t question = MakeQuestion(block_, ids.span(), out.rest());
+  const std::size_t question = MakeQuestion(block_, part_, ids.span(), out.rest());
   out.Took(question);
   asking_ = true;
   ++status_.questions;
   const auto time_of = [&](std::size_t bytes) {
     return Duration(static_cast<std::int64_t>(bytes * 10 * 1'000'000 / config_.baud + 1));
   };
-  const Duration asking = time_of(question + ids.size() * AnswerBytes(block_));
+  const Duration asking = time_of(question + ids.size() * AnswerBytes(block_, part_));
   deadline_ = now + time_of(before) + asking + config_.reply_timeout;
   const auto rest_us = static_cast<float>(asking.count()) / config_.feedback_share;
   ask_again_ = now + Duration(static_cast<std::int64_t>(rest_us));
@@ -149,7 +158,7 @@ void ChainBus::Receive(std::span<const std::byte> bytes, Time now) noexcept {
     });
     if (asked == asked_.end()) continue;  // late, or not to this question
     const std::size_t i = *asked;
-    if (answer->alert) members_[i].look_now = true;
+    if (answer->alert && members_[i].faults == 0) members_[i].look_now = true;
     if (!answer->good) continue;  // as good as lost: there is nothing in it
     ++status_.replies;
     *asked = *(asked_.end() - 1);
@@ -164,19 +173,30 @@ void ChainBus::Receive(std::span<const std::byte> bytes, Time now) noexcept {
 }
 
 void ChainBus::Took(std::size_t i, std::span<const std::byte> data, Time now) noexcept {
+  Member& m = members_[i];
   switch (block_) {
-    case Block::kSettings: {
-      const bool usable = TakeSettings(i, data);
-      state(i) = usable ? ServoState::kChecking : ServoState::kRefused;
-      members_[i].settings_read = usable;
-      members_[i].look_now = true;
-      return;
-    }
+    case Block::kSettings:
+      return TookSettings(i, data);
     case Block::kHealth:
-      return TookHealth(i, TakeHealth(i, data), now);
+      TakeHealth(i, part_, data, m.health);
+      m.look_part = static_cast<std::uint8_t>((part_ + 1) % Parts(Block::kHealth));
+      if (m.look_part == 0) TookHealth(i, m.health, now);
+      return;
     case Block::kStatus:
       return TookReading(i, TakeStatus(i, data), now);
   }
+}
+
+void ChainBus::TookSettings(std::size_t i, std::span<const std::byte> data) noexcept {
+  Member& m = members_[i];
+  if (part_ == 0) m.unusable = false;
+  m.unusable = !TakeSettings(i, part_, data) || m.unusable;
+  m.settings_part = static_cast<std::uint8_t>((part_ + 1) % Parts(Block::kSettings));
+  if (state(i) == ServoState::kAbsent) state(i) = ServoState::kChecking;
+  if (m.settings_part != 0) return;
+  state(i) = m.unusable ? ServoState::kRefused : ServoState::kChecking;
+  m.settings_read = !m.unusable;
+  LookSoon(m);
 }
 
 void ChainBus::TookHealth(std::size_t i, const Health& health, Time now) noexcept {

@@ -29,15 +29,25 @@ constexpr Range Span(dxl::Register first, dxl::Register last) noexcept {
   return {first.address, static_cast<std::uint16_t>(last.address + last.bytes - first.address)};
 }
 
+// Reading what no table names is an error, so each block has as many parts as there are gaps.
+constexpr std::array kSettings = {
+    Span(x::kReturnDelay, x::kOperatingMode), Span(x::kMaxPosition, x::kMinPosition),
+    Span(x::kShutdown, x::kShutdown), Span(x::kCurrentLimit, x::kCurrentLimit)};
+constexpr std::size_t kCurrentPart = 3;
+constexpr std::array kHealth = {
+    Span(x::kTorqueEnable, x::kTorqueEnable), Span(x::kHardwareError, x::kHardwareError),
+    Span(x::kBusWatchdog, x::kBusWatchdog), Span(x::kProfileAcceleration, x::kGoalPosition)};
+constexpr Range kStatus = Span(x::kPresentLoad, x::kPresentTemperature);
+
 template <class Block>
-constexpr Range RangeOf(Block block) noexcept {
+constexpr Range RangeOf(Block block, std::size_t part) noexcept {
   switch (block) {
     case Block::kSettings:
-      return Span(x::kModel, x::kShutdown);
+      return kSettings[part];
     case Block::kHealth:
-      return Span(x::kTorqueEnable, x::kGoalPosition);
+      return kHealth[part];
     case Block::kStatus:
-      return Span(x::kPresentLoad, x::kPresentTemperature);
+      return kStatus;
   }
   return {};
 }
@@ -174,10 +184,12 @@ std::size_t DynamixelBus::MakeReboot(std::uint8_t id, std::span<std::byte> out) 
   return SizeOf(dxl::Reboot(id, out));
 }
 
-std::size_t DynamixelBus::MakeQuestion(Block block, std::span<const std::uint8_t> ids,
+std::size_t DynamixelBus::MakeQuestion(Block block, std::size_t part,
+                                       std::span<const std::uint8_t> ids,
                                        std::span<std::byte> out) noexcept {
-  const Range range = RangeOf(block);
+  const Range range = RangeOf(block, part);
   wanted_bytes_ = range.bytes;
+  optional_ = block == Block::kSettings && part == kCurrentPart;
   reader_.Reset();
   if (ids.size() == 1) return SizeOf(dxl::Read(ids[0], range.address, range.bytes, out));
   return SizeOf(dxl::SyncRead(range.address, range.bytes, ids, out));
@@ -187,20 +199,38 @@ std::optional<ChainBus::Answer> DynamixelBus::NextAnswer(
     std::span<const std::byte>& bytes) noexcept {
   const auto status = reader_.Next(bytes);
   if (!status) return std::nullopt;
+  const bool read =
+      status->error == dxl::StatusError::kNone && status->parameters.size() == wanted_bytes_;
+  const bool has_none = optional_ && status->error == dxl::StatusError::kAccess;
   return Answer{.id = status->id,
-                .good = status->error == dxl::StatusError::kNone &&
-                        status->parameters.size() == wanted_bytes_,
+                .good = read || has_none,
                 .alert = status->alert,
-                .data = status->parameters};
+                .data = read ? status->parameters : std::span<const std::byte>()};
 }
 
-std::size_t DynamixelBus::AnswerBytes(Block block) const noexcept {
-  return kStatusFrame + RangeOf(block).bytes;
+std::size_t DynamixelBus::Parts(Block block) const noexcept {
+  switch (block) {
+    case Block::kSettings:
+      return kSettings.size();
+    case Block::kHealth:
+      return kHealth.size();
+    case Block::kStatus:
+      return 1;
+  }
+  return 1;
 }
 
-bool DynamixelBus::TakeSettings(std::size_t servo, std::span<const std::byte> data) noexcept {
-  const Range from = RangeOf(Block::kSettings);
-  const ServoConfig& wanted = config().servos[servo];
+std::size_t DynamixelBus::AnswerBytes(Block block, std::size_t part) const noexcept {
+  return kStatusFrame + RangeOf(block, part).bytes;
+}
+
+bool DynamixelBus::TakeSettings(std::size_t servo, std::size_t part,
+                                std::span<const std::byte> data) noexcept {
+  if (part == kCurrentPart) {
+    const std::uint32_t full = data.empty() ? 0 : Get(data, kSettings[part], x::kCurrentLimit);
+    full_current_[servo] = static_cast<std::uint16_t>(full);
+    return true;
+  }
   bool usable = true;
   const auto compare = [&](Setting setting, std::int32_t found, std::int32_t want, bool fine,
                            bool refuse) {
@@ -213,49 +243,70 @@ bool DynamixelBus::TakeSettings(std::size_t servo, std::span<const std::byte> da
     usable = usable && (fine || !refuse);
   };
   const auto get = [&](dxl::Register what) {
-    return std::bit_cast<std::int32_t>(Get(data, from, what));
+    return std::bit_cast<std::int32_t>(Get(data, kSettings[part], what));
   };
-  const std::int32_t mode = get(x::kOperatingMode);
-  const auto want_mode = static_cast<std::int32_t>(dynamixel_.mode);
-  compare(Setting::kOperatingMode, mode, want_mode, mode == want_mode, true);
-  const auto timed = static_cast<std::int32_t>(get(x::kDriveMode) & kTimeProfile) != 0;
-  compare(Setting::kProfileUnit, timed, 0, !timed, true);
-  // The servo's own limits are the last to hold when all else fails: they should be the rig's.
-  const auto low = static_cast<std::int32_t>(std::ceil(wanted.min));
-  const auto high = static_cast<std::int32_t>(std::floor(wanted.max));
-  compare(Setting::kMinPosition, get(x::kMinPosition), low, get(x::kMinPosition) == low, false);
-  compare(Setting::kMaxPosition, get(x::kMaxPosition), high, get(x::kMaxPosition) == high, false);
-  const HardwareFaults shutdown = FaultsFrom(Get(data, from, x::kShutdown));
-  compare(Setting::kShutdown, shutdown, dynamixel_.shutdown,
-          (dynamixel_.shutdown & ~unsigned{shutdown}) == 0, false);
-  const std::int32_t delay_us = get(x::kReturnDelay) * 2;
-  const auto most_us = static_cast<std::int32_t>(dynamixel_.max_return_delay.count());
-  compare(Setting::kReturnDelay, delay_us, most_us, delay_us <= most_us, false);
-  full_current_[servo] = static_cast<std::uint16_t>(get(x::kCurrentLimit));
+  switch (part) {
+    case 0: {
+      const std::int32_t mode = get(x::kOperatingMode);
+      const auto want_mode = static_cast<std::int32_t>(dynamixel_.mode);
+      compare(Setting::kOperatingMode, mode, want_mode, mode == want_mode, true);
+      const bool timed = (static_cast<unsigned>(get(x::kDriveMode)) & kTimeProfile) != 0;
+      compare(Setting::kProfileUnit, timed ? 1 : 0, 0, !timed, true);
+      const std::int32_t delay_us = get(x::kReturnDelay) * 2;
+      const auto most_us = static_cast<std::int32_t>(dynamixel_.max_return_delay.count());
+      compare(Setting::kReturnDelay, delay_us, most_us, delay_us <= most_us, false);
+      break;
+    }
+    case 1: {
+      // The servo's own limits are the last to hold when all else fails: they should be the rig's.
+      const ServoConfig& wanted = config().servos[servo];
+      const auto low = static_cast<std::int32_t>(std::ceil(wanted.min));
+      const auto high = static_cast<std::int32_t>(std::floor(wanted.max));
+      const std::int32_t min = get(x::kMinPosition);
+      const std::int32_t max = get(x::kMaxPosition);
+      compare(Setting::kMinPosition, min, low, min == low, false);
+      compare(Setting::kMaxPosition, max, high, max == high, false);
+      break;
+    }
+    default: {
+      const HardwareFaults shutdown = FaultsFrom(Get(data, kSettings[part], x::kShutdown));
+      compare(Setting::kShutdown, shutdown, dynamixel_.shutdown,
+              (dynamixel_.shutdown & ~unsigned{shutdown}) == 0, false);
+      break;
+    }
+  }
   return usable;
 }
 
-ChainBus::Health DynamixelBus::TakeHealth(std::size_t servo,
-                                          std::span<const std::byte> data) noexcept {
-  const Range from = RangeOf(Block::kHealth);
+void DynamixelBus::TakeHealth(std::size_t servo, std::size_t part, std::span<const std::byte> data,
+                              Health& health) noexcept {
+  const Range from = kHealth[part];
   const auto units = static_cast<std::uint32_t>(dynamixel_.watchdog / kWatchdogUnit);
-  return {.torque = Get(data, from, x::kTorqueEnable) != 0,
-          .goal = std::bit_cast<std::int32_t>(Get(data, from, x::kGoalPosition)),
-          .slow = std::ranges::equal(data.subspan(kProfile.address - from.address, kProfile.bytes),
-                                     ProfileOf(servo, true)),
-          .watched = Get(data, from, x::kBusWatchdog) == units,
-          .faults = FaultsFrom(Get(data, from, x::kHardwareError))};
+  switch (part) {
+    case 0:
+      health.torque = Get(data, from, x::kTorqueEnable) != 0;
+      return;
+    case 1:
+      health.faults = FaultsFrom(Get(data, from, x::kHardwareError));
+      return;
+    case 2:
+      health.watched = Get(data, from, x::kBusWatchdog) == units;
+      return;
+    default:
+      health.goal = std::bit_cast<std::int32_t>(Get(data, from, x::kGoalPosition));
+      health.slow = std::ranges::equal(data.first(kProfile.bytes), ProfileOf(servo, true));
+      return;
+  }
 }
 
 ChainBus::Reading DynamixelBus::TakeStatus(std::size_t servo,
                                            std::span<const std::byte> data) noexcept {
-  const Range from = RangeOf(Block::kStatus);
-  const auto load = static_cast<std::int16_t>(Get(data, from, x::kPresentLoad));
+  const auto load = static_cast<std::int16_t>(Get(data, kStatus, x::kPresentLoad));
   const auto full = full_current_[servo] != 0 ? static_cast<float>(full_current_[servo]) : 1000.0F;
-  return {.position = std::bit_cast<std::int32_t>(Get(data, from, x::kPresentPosition)),
-          .temperature_c = static_cast<float>(Get(data, from, x::kPresentTemperature)),
+  return {.position = std::bit_cast<std::int32_t>(Get(data, kStatus, x::kPresentPosition)),
+          .temperature_c = static_cast<float>(Get(data, kStatus, x::kPresentTemperature)),
           .load = static_cast<float>(load) / full,
-          .voltage_v = static_cast<float>(Get(data, from, x::kPresentVoltage)) * 0.1F,
+          .voltage_v = static_cast<float>(Get(data, kStatus, x::kPresentVoltage)) * 0.1F,
           .faults = std::nullopt};
 }
 

@@ -47,15 +47,18 @@ class DynamixelBus final : public ChainBus {
                          std::span<std::byte> out) noexcept override;
   std::size_t MakeRelease(std::span<std::byte> out) noexcept override;
   std::size_t MakeReboot(std::uint8_t id, std::span<std::byte> out) noexcept override;
-  std::size_t MakeQuestion(Block block, std::span<const std::uint8_t> ids,
+  std::size_t MakeQuestion(Block block, std::size_t part, std::span<const std::uint8_t> ids,
                            std::span<std::byte> out) noexcept override;
   std::optional<Answer> NextAnswer(std::span<const std::byte>& bytes) noexcept override;
   void ForgetAnswers() noexcept override { reader_.Reset(); }
-  std::size_t AnswerBytes(Block block) const noexcept override;
+  std::size_t Parts(Block block) const noexcept override;
+  std::size_t AnswerBytes(Block block, std::size_t part) const noexcept override;
   std::size_t MostAsked() const noexcept override { return 4; }
   bool Echoes() const noexcept override { return reader_.stats().instructions != 0; }
-  bool TakeSettings(std::size_t servo, std::span<const std::byte> data) noexcept override;
-  Health TakeHealth(std::size_t servo, std::span<const std::byte> data) noexcept override;
+  bool TakeSettings(std::size_t servo, std::size_t part,
+                    std::span<const std::byte> data) noexcept override;
+  void TakeHealth(std::size_t servo, std::size_t part, std::span<const std::byte> data,
+                  Health& health) noexcept override;
   Reading TakeStatus(std::size_t servo, std::span<const std::byte> data) noexcept override;
 
   // The eight bytes of a servo's profile, acceleration first.
@@ -64,6 +67,7 @@ class DynamixelBus final : public ChainBus {
   DynamixelConfig dynamixel_;
   wire::dynamixel::StatusReader reader_;
   std::size_t wanted_bytes_ = 0;                          // of data in an answer
+  bool optional_ = false;                                 // some servos have no such register
   std::array<std::uint16_t, kMaxServos> full_current_{};  // 0: the servo measures load instead
 };
 

@@ -81,7 +81,7 @@ std::size_t SizeOf(const ft::Packet& packet) noexcept { return packet ? packet->
 }  // namespace
 
 Result<> FeetechBus::Configure(const FeetechConfig& config) noexcept {
-  if (config.full_speed_per_s < 1 || config.full_speed_per_s > 32767) return Errc::kOutOfRange;
+  if (config.full_speed < 1 || config.full_speed > 32767) return Errc::kOutOfRange;
   const auto done = ConfigureChain(config.bus, ft::kMaxId);
   if (!done) return done;
   feetech_ = config;
@@ -90,11 +90,11 @@ Result<> FeetechBus::Configure(const FeetechConfig& config) noexcept {
 }
 
 std::uint16_t FeetechBus::SpeedOf(std::size_t servo, bool slow) const noexcept {
-  const std::int32_t full = feetech_.full_speed_per_s;
+  if (!slow) return static_cast<std::uint16_t>(feetech_.full_speed);
   const auto arriving = static_cast<std::int32_t>(config().servos[servo].arrive_speed_per_s);
   // Never 0, which may mean full speed; rounded down, as it is a limit.
-  const std::int32_t speed = slow ? std::min(arriving, full) : full;
-  return static_cast<std::uint16_t>(std::max(1, speed / counts_per_speed_[servo]));
+  return static_cast<std::uint16_t>(
+      std::clamp(arriving / counts_per_speed_[servo], 1, feetech_.full_speed));
 }
 
 std::uint8_t FeetechBus::AccelerationOf(std::size_t servo, bool slow) const noexcept {
@@ -154,7 +154,8 @@ std::size_t FeetechBus::MakeReboot(std::uint8_t id, std::span<std::byte> out) no
   return SizeOf(ft::Reboot(id, out));
 }
 
-std::size_t FeetechBus::MakeQuestion(Block block, std::span<const std::uint8_t> ids,
+std::size_t FeetechBus::MakeQuestion(Block block, std::size_t /*part*/,
+                                     std::span<const std::uint8_t> ids,
                                      std::span<std::byte> out) noexcept {
   const Range range = RangeOf(block);
   (void)reader_.Expect(ids, range.bytes);  // all blocks are shorter than it can read
@@ -169,11 +170,12 @@ std::optional<ChainBus::Answer> FeetechBus::NextAnswer(std::span<const std::byte
   return Answer{.id = status->id, .good = true, .alert = false, .data = status->parameters};
 }
 
-std::size_t FeetechBus::AnswerBytes(Block block) const noexcept {
+std::size_t FeetechBus::AnswerBytes(Block block, std::size_t /*part*/) const noexcept {
   return kStatusFrame + RangeOf(block).bytes;
 }
 
-bool FeetechBus::TakeSettings(std::size_t servo, std::span<const std::byte> data) noexcept {
+bool FeetechBus::TakeSettings(std::size_t servo, std::size_t /*part*/,
+                              std::span<const std::byte> data) noexcept {
   const Range from = RangeOf(Block::kSettings);
   const ServoConfig& wanted = config().servos[servo];
   bool usable = true;
@@ -211,8 +213,8 @@ bool FeetechBus::TakeSettings(std::size_t servo, std::span<const std::byte> data
   return usable;
 }
 
-ChainBus::Health FeetechBus::TakeHealth(std::size_t servo,
-                                        std::span<const std::byte> data) noexcept {
+void FeetechBus::TakeHealth(std::size_t servo, std::size_t /*part*/,
+                            std::span<const std::byte> data, Health& health) noexcept {
   const Range from = RangeOf(Block::kHealth);
   const std::uint16_t speed = ft::Get16(Part(data, from, sts::kGoalSpeed), order());
   const std::int32_t lock = Get8(data, from, sts() ? sts::kLock : ft::scs::kLock);
@@ -222,12 +224,12 @@ ChainBus::Health FeetechBus::TakeHealth(std::size_t servo,
            .wanted = 1,
            .refused = false},
           lock == 1);
-  return {.torque = Get8(data, from, sts::kTorqueEnable) != 0,
-          .goal = ft::FromSignMagnitude(ft::Get16(Part(data, from, sts::kGoalPosition), order()),
-                                        ft::kPositionSign),
-          .slow = speed == SpeedOf(servo, true),
-          .watched = true,
-          .faults = FaultsFrom(errors_)};
+  health = {.torque = Get8(data, from, sts::kTorqueEnable) != 0,
+            .goal = ft::FromSignMagnitude(ft::Get16(Part(data, from, sts::kGoalPosition), order()),
+                                          ft::kPositionSign),
+            .slow = speed == SpeedOf(servo, true),
+            .watched = true,
+            .faults = FaultsFrom(errors_)};
 }
 
 ChainBus::Reading FeetechBus::TakeStatus(std::size_t /*servo*/,

@@ -14,8 +14,9 @@ struct FeetechConfig {
   BusConfig bus;
   FeetechSeries series = FeetechSeries::kSts;
   bool sync_read = true;  // ask several at once; some SCS servos do not know it
-  // What stands for "as fast as it can", counts/s: speed 0 means that to some and "stop" to others.
-  std::int32_t full_speed_per_s = 4000;
+  // What goes into the speed register for "as fast as it can": more than any of them does, in
+  // either unit, because 0 means that to some and "stop" to others.
+  std::int32_t full_speed = 4000;
   std::uint8_t acceleration = 0;  // 100 counts/s^2; 0: unlimited, as the motion limits it already
   // What has to switch torque off in the servo itself; STS and SMS.
   HardwareFaults shutdown = Bit(HardwareFault::kHeat) | Bit(HardwareFault::kOverload);
@@ -47,15 +48,18 @@ class FeetechBus final : public ChainBus {
                          std::span<std::byte> out) noexcept override;
   std::size_t MakeRelease(std::span<std::byte> out) noexcept override;
   std::size_t MakeReboot(std::uint8_t id, std::span<std::byte> out) noexcept override;
-  std::size_t MakeQuestion(Block block, std::span<const std::uint8_t> ids,
+  std::size_t MakeQuestion(Block block, std::size_t part, std::span<const std::uint8_t> ids,
                            std::span<std::byte> out) noexcept override;
   std::optional<Answer> NextAnswer(std::span<const std::byte>& bytes) noexcept override;
   void ForgetAnswers() noexcept override { reader_.Forget(); }
-  std::size_t AnswerBytes(Block block) const noexcept override;
+  std::size_t Parts(Block /*block*/) const noexcept override { return 1; }
+  std::size_t AnswerBytes(Block block, std::size_t part) const noexcept override;
   std::size_t MostAsked() const noexcept override { return feetech_.sync_read ? 4 : 1; }
   bool Echoes() const noexcept override { return reader_.stats().instructions != 0; }
-  bool TakeSettings(std::size_t servo, std::span<const std::byte> data) noexcept override;
-  Health TakeHealth(std::size_t servo, std::span<const std::byte> data) noexcept override;
+  bool TakeSettings(std::size_t servo, std::size_t part,
+                    std::span<const std::byte> data) noexcept override;
+  void TakeHealth(std::size_t servo, std::size_t part, std::span<const std::byte> data,
+                  Health& health) noexcept override;
   Reading TakeStatus(std::size_t servo, std::span<const std::byte> data) noexcept override;
 
   bool sts() const noexcept { return feetech_.series == FeetechSeries::kSts; }

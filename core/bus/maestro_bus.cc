@@ -126,7 +126,7 @@ void MaestroBus::WriteTargets(Time now, bool release) noexcept {
       if (!Due(torque_at_, config_.bus.torque_interval, now)) continue;
       torque_at_ = now;
       f.state = ServoState::kOn;
-      c.seen = false;
+      c.seen = c.missed = false;
     }
     const std::uint16_t target = c.wants ? *c.goal : std::uint16_t{0};
     if (!release && target == 0 && !c.pulsing && config_.answers) continue;
@@ -215,6 +215,10 @@ void MaestroBus::WriteQuestion(Time now) noexcept {
       return Ask(maestro::Reply::kPosition, now);
     case Stage::kServe:
       if (!config_.answers) return;
+      if (again_) {
+        again_ = false;
+        return Ask(maestro::Reply::kPosition, now);
+      }
       errors_next_ = !errors_next_;
       if (errors_next_) return Ask(maestro::Reply::kErrors, now);
       turn_ = (turn_ + 1) % channels_.size();
@@ -299,7 +303,13 @@ void MaestroBus::TookPosition(std::size_t i, std::uint16_t value, Time now) noex
   if (c.sent == 0) c.pulsing = value != 0;
   if (f.state != ServoState::kOn) return;
   if (value == 0 && c.seen) {
-    // It had its pulse, and has none: an error sent it home.
+    // It had its pulse, and has none: an error sent it home. Or a reply was damaged, which nothing
+    // else shows; so it is asked for once more before that is believed.
+    if (!c.missed) {
+      c.missed = true;
+      again_ = true;
+      return;
+    }
     ++status_.torque_lost;
     f.state = ServoState::kLimp;
     c.let_go_at = now;
@@ -308,6 +318,7 @@ void MaestroBus::TookPosition(std::size_t i, std::uint16_t value, Time now) noex
     return;
   }
   c.seen = c.seen || value != 0;
+  c.missed = false;
   if (!Due(c.changed_at, kSettled, now)) return;
   NoteFinding(status_.findings,
               {.servo = static_cast<std::uint8_t>(i),

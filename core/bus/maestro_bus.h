@@ -51,6 +51,7 @@ class MaestroBus final : public ServoBus {
     std::optional<Time> changed_at;
     bool pulsing = false;           // it may have pulses
     bool seen = false;              // they were read back since it has them
+    bool missed = false;            // ... and once they were not
     std::optional<Time> let_go_at;  // the board ended them by itself
   };
 
@@ -74,6 +75,7 @@ class MaestroBus final : public ServoBus {
   std::size_t turn_ = 0;   // whose position is asked for
   std::size_t asked_ = 0;  // the one that is out
   bool errors_next_ = false;
+  bool again_ = false;  // the same position once more
   std::uint8_t lost_in_row_ = 0;
   bool knocked_ = false;  // it was tried at all
   std::optional<Time> deadline_, quiet_until_, torque_at_;

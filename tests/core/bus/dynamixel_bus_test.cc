@@ -72,9 +72,9 @@ TEST(DynamixelBus, WhatTheServoDoesNotSwitchOffAtIsTold) {
   ASSERT_TRUE(c.bus.Configure(c.config));
   c.Run(milliseconds(500));
   ASSERT_EQ(c.bus.status().findings.size(), 2U);
-  EXPECT_EQ(c.bus.status().findings[0].setting, Setting::kShutdown);
-  EXPECT_EQ(c.bus.status().findings[1].setting, Setting::kReturnDelay);
-  EXPECT_EQ(c.bus.status().findings[1].found, 500);
+  EXPECT_EQ(c.bus.status().findings[0].setting, Setting::kReturnDelay);
+  EXPECT_EQ(c.bus.status().findings[0].found, 500);
+  EXPECT_EQ(c.bus.status().findings[1].setting, Setting::kShutdown);
   EXPECT_EQ(c.state(1), ServoState::kLimp);
 }
 

@@ -57,7 +57,32 @@ void DynamixelPeer::Write(int id, int address, std::span<const std::byte> data) 
   }
 }
 
+// Whether a table of the X series names all these bytes; the XL430's, which has no current limit.
+bool DynamixelPeer::IsNamed(int address, int length) {
+  constexpr std::array<std::pair<int, int>, 14> kNamed = {{{0, 14},
+                                                           {20, 8},
+                                                           {31, 7},
+                                                           {44, 12},
+                                                           {60, 1},
+                                                           {63, 3},
+                                                           {68, 3},
+                                                           {76, 10},
+                                                           {88, 4},
+                                                           {98, 1},
+                                                           {100, 2},
+                                                           {104, 18},
+                                                           {122, 26},
+                                                           {168, 84}}};
+  return std::ranges::any_of(kNamed, [&](const auto& range) {
+    return address >= range.first && address + length <= range.first + range.second;
+  });
+}
+
 Bytes DynamixelPeer::Reply(int id, int error, int address, int length) {
+  if (!IsNamed(address, length)) {
+    error = 7;
+    length = 0;
+  }
   const PeerServo& servo = servos[id];
   std::array<int, 256> table{};
   const auto put = [&](int at, int bytes, int value) {

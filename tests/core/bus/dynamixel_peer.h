@@ -17,6 +17,7 @@ class DynamixelPeer : public ChainPeer {
 
  private:
   void Write(int id, int address, std::span<const std::byte> data);
+  static bool IsNamed(int address, int length);
   Bytes Reply(int id, int error, int address, int length);
 };
 
