@@ -20,7 +20,8 @@ bool IsSane(const ServoConfig& servo, std::uint8_t max_id) noexcept {
          std::abs(servo.min) <= kMostCounts && std::abs(servo.max) <= kMostCounts &&
          std::ceil(servo.min) <= std::floor(servo.max) && servo.arrive_speed_per_s >= 1 &&
          servo.arrive_speed_per_s <= kMostCounts && servo.arrive_acceleration_per_s2 >= 0 &&
-         servo.arrive_acceleration_per_s2 <= kMostCounts;
+         servo.arrive_acceleration_per_s2 <= kMostCounts && servo.top_speed_per_s >= 0 &&
+         servo.top_speed_per_s <= kMostCounts;
 }
 
 }  // namespace

@@ -59,7 +59,8 @@ class ChainBus : public ServoBus {
   struct Health {
     bool torque = false;
     std::int32_t goal = 0;
-    bool slow = false;     // keeps the speed that it was told for its arrival
+    bool slow = false;     // has the pace of an arrival
+    bool normal = false;   // has the pace of all that comes after
     bool watched = false;  // the bus's own watchdog is set and has not tripped; or there is none
     std::optional<HardwareFaults> faults;  // where this block tells
   };

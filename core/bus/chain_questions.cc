@@ -10,6 +10,8 @@ namespace {
 
 // Two readings of a servo at rest differ by less, and damage that a checksum missed by more.
 constexpr std::int32_t kAgree = 64;  // counts, 5.6 degrees
+constexpr std::int32_t kFar = 1'000'000;
+constexpr std::int32_t kThere = 8;  // counts, 0.7 degrees
 constexpr int kLooksInRow = 3;
 
 bool Due(const std::optional<Time>& last, Duration interval, Time now) noexcept {
@@ -225,7 +227,7 @@ void ChainBus::TookHealth(std::size_t i, const Health& health, Time now) noexcep
       if (!health.torque || !health.watched) {
         ++status_.torque_lost;
         Drop(i);
-      } else if (health.slow != m.arriving) {
+      } else if (!(m.arriving ? health.slow : health.normal)) {
         m.hurry = true;  // it did not hear
       }
       return;
@@ -250,7 +252,8 @@ void ChainBus::TookReading(std::size_t i, const Reading& reading, Time now) noex
   f.faults = m.faults;
   m.guard.Update(now, reading.temperature_c, reading.load, m.faults);
 
-  const bool agrees = m.reading && std::abs(reading.position - *m.reading) <= kAgree;
+  const std::int32_t moved = m.reading ? std::abs(reading.position - *m.reading) : kFar;
+  const bool agrees = moved <= kAgree;
   m.reading = reading.position;
   if (agrees || state(i) == ServoState::kOn) {
     f.position = static_cast<float>(reading.position);
@@ -258,8 +261,10 @@ void ChainBus::TookReading(std::size_t i, const Reading& reading, Time now) noex
   }
   if (state(i) == ServoState::kChecking && agrees && m.looked) state(i) = ServoState::kLimp;
   if (state(i) == ServoState::kOn && m.arriving) {
-    const std::int32_t near = std::max<std::int32_t>(8, (m.high - m.low) / 50);
-    if (std::abs(reading.position - m.sent) <= near) {
+    // A load keeps a servo from its goal: close by and at rest is as near as it gets.
+    const std::int32_t off = std::abs(reading.position - m.sent);
+    const std::int32_t close = std::max(kThere, (m.high - m.low) / 50);
+    if (off <= kThere || (off <= close && moved <= 1)) {
       m.arriving = false;
       m.hurry = true;
     }

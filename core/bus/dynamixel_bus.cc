@@ -157,13 +157,13 @@ std::size_t DynamixelBus::MakePace(const Goal& goal, std::span<std::byte> out) n
 
 std::array<std::byte, 8> DynamixelBus::ProfileOf(std::size_t servo, bool slow) const noexcept {
   std::array<std::byte, 8> profile{};  // zeros: no limits
-  if (!slow) return profile;
   const ServoConfig& config = this->config().servos[servo];
-  if (config.arrive_acceleration_per_s2 > 0) {
-    std::ranges::copy(Bytes(Steps(config.arrive_acceleration_per_s2, kCountsPerAcceleration)),
-                      profile.begin());
+  const float acceleration = slow ? config.arrive_acceleration_per_s2 : 0;
+  const float speed = slow ? config.arrive_speed_per_s : config.top_speed_per_s;
+  if (acceleration > 0) {
+    std::ranges::copy(Bytes(Steps(acceleration, kCountsPerAcceleration)), profile.begin());
   }
-  std::ranges::copy(Bytes(Steps(config.arrive_speed_per_s, kCountsPerSpeed)), profile.begin() + 4);
+  if (speed > 0) std::ranges::copy(Bytes(Steps(speed, kCountsPerSpeed)), profile.begin() + 4);
   return profile;
 }
 
@@ -295,6 +295,7 @@ void DynamixelBus::TakeHealth(std::size_t servo, std::size_t part, std::span<con
     default:
       health.goal = std::bit_cast<std::int32_t>(Get(data, from, x::kGoalPosition));
       health.slow = std::ranges::equal(data.first(kProfile.bytes), ProfileOf(servo, true));
+      health.normal = std::ranges::equal(data.first(kProfile.bytes), ProfileOf(servo, false));
       return;
   }
 }

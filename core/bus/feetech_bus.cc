@@ -90,11 +90,13 @@ Result<> FeetechBus::Configure(const FeetechConfig& config) noexcept {
 }
 
 std::uint16_t FeetechBus::SpeedOf(std::size_t servo, bool slow) const noexcept {
-  if (!slow) return static_cast<std::uint16_t>(feetech_.full_speed);
-  const auto arriving = static_cast<std::int32_t>(config().servos[servo].arrive_speed_per_s);
+  const ServoConfig& wanted = config().servos[servo];
+  const auto speed =
+      static_cast<std::int32_t>(slow ? wanted.arrive_speed_per_s : wanted.top_speed_per_s);
+  if (speed == 0) return static_cast<std::uint16_t>(feetech_.full_speed);
   // Never 0, which may mean full speed; rounded down, as it is a limit.
   return static_cast<std::uint16_t>(
-      std::clamp(arriving / counts_per_speed_[servo], 1, feetech_.full_speed));
+      std::clamp(speed / counts_per_speed_[servo], 1, feetech_.full_speed));
 }
 
 std::uint8_t FeetechBus::AccelerationOf(std::size_t servo, bool slow) const noexcept {
@@ -228,6 +230,7 @@ void FeetechBus::TakeHealth(std::size_t servo, std::size_t /*part*/,
             .goal = ft::FromSignMagnitude(ft::Get16(Part(data, from, sts::kGoalPosition), order()),
                                           ft::kPositionSign),
             .slow = speed == SpeedOf(servo, true),
+            .normal = speed == SpeedOf(servo, false),
             .watched = true,
             .faults = FaultsFrom(errors_)};
 }

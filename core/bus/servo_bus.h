@@ -26,6 +26,9 @@ struct ServoConfig {
   // there; kept by the servo itself, where the bus has a means for it. > 0.
   float arrive_speed_per_s = 400;
   float arrive_acceleration_per_s2 = 2000;  // 0: unlimited
+  // How fast the servo itself may go afterwards; somewhat above what it is told to. It bounds the
+  // leap over goals that were lost. 0: unlimited.
+  float top_speed_per_s = 0;
   GuardConfig guard{};
 };
 

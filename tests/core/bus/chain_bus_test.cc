@@ -304,6 +304,34 @@ TYPED_TEST(ChainBusTest, AServoFarFromItsGoalGoesThereSlowlyAndThenFollows) {
   EXPECT_EQ(c.servo(1).acceleration, 0);
 }
 
+TYPED_TEST(ChainBusTest, AServoThatALoadKeepsFromItsGoalHasArrivedWhenItRests) {
+  ChainContext<TypeParam> c(1);
+  c.Run(milliseconds(500));
+  c.Command(1, 2040);  // 30 counts away, and it does not move
+  for (int i = 0; i < 200; ++i) c.Tick();
+  EXPECT_EQ(c.servo(1).position, 2010);
+  EXPECT_EQ(c.servo(1).speed, TypeParam::kFast);
+}
+
+TYPED_TEST(ChainBusTest, AServosOwnTopSpeedIsKeptAfterItsArrival) {
+  for (const float top : {800.0F, 400.0F}) {  // the second is that of the arrival
+    ChainContext<TypeParam> c(1);
+    c.config.bus.servos[0].top_speed_per_s = top;
+    c.config.bus.servos[0].arrive_acceleration_per_s2 = 0;
+    ASSERT_TRUE(c.bus.Configure(c.config));
+    c.RunUp();
+    c.Run(milliseconds(3000));
+    EXPECT_EQ(c.servo(1).speed, top == 400 ? TypeParam::kSlow : TypeParam::kTop);
+    c.peer.written.clear();
+    c.Run(milliseconds(3000));
+    for (const Written& w : c.peer.written) {
+      EXPECT_NE(w.what, What::kWatchdog);
+      EXPECT_EQ(w.what == What::kGoal || w.value == c.servo(1).speed, true);
+    }
+    EXPECT_NEAR(static_cast<double>(Count(c.peer, What::kGoal)), 30, 2);
+  }
+}
+
 TYPED_TEST(ChainBusTest, TorqueOffIsRepeatedUntilTheServoSaysSo) {
   ChainContext<TypeParam> c;
   c.RunUp();

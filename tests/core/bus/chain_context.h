@@ -27,6 +27,7 @@ struct DynamixelKind {
   static constexpr int kVoltageError = 1 << 0;
   // Of 400 counts/s: 0.229 rev/min = 15.633 counts/s.
   static constexpr int kSlow = 26;
+  static constexpr int kTop = 51;  // of 800 counts/s
   // Of 2000 counts/s^2: 214.577 rev/min^2 = 244.14 counts/s^2.
   static constexpr int kGentle = 8;
   static constexpr int kFast = 0;
@@ -39,6 +40,7 @@ struct FeetechKind {
   static constexpr int kOverloadError = 1 << 5;
   static constexpr int kVoltageError = 1 << 0;
   static constexpr int kSlow = 400;
+  static constexpr int kTop = 800;
   static constexpr int kGentle = 20;
   static constexpr int kFast = 4000;
 };
