@@ -131,6 +131,8 @@ class ChainBus : public ServoBus {
     // What it said.
     bool settings_read = false, looked = false;
     std::optional<std::int32_t> reading;  // the last one
+    std::int32_t rests_at = 0;
+    Time rests_since{};
     std::optional<Time> looked_at, tried_at;
     bool look_now = false;
     std::uint8_t settings_part = 0, look_part = 0;  // the next ones

@@ -10,8 +10,9 @@ namespace {
 
 // Two readings of a servo at rest differ by less, and damage that a checksum missed by more.
 constexpr std::int32_t kAgree = 64;  // counts, 5.6 degrees
-constexpr std::int32_t kFar = 1'000'000;
-constexpr std::int32_t kThere = 8;  // counts, 0.7 degrees
+constexpr std::int32_t kThere = 8;   // counts, 0.7 degrees
+constexpr std::int32_t kStill = 2;   // what a sensor trembles
+constexpr Duration kRest = std::chrono::milliseconds(300);
 constexpr int kLooksInRow = 3;
 
 bool Due(const std::optional<Time>& last, Duration interval, Time now) noexcept {
@@ -252,8 +253,11 @@ void ChainBus::TookReading(std::size_t i, const Reading& reading, Time now) noex
   f.faults = m.faults;
   m.guard.Update(now, reading.temperature_c, reading.load, m.faults);
 
-  const std::int32_t moved = m.reading ? std::abs(reading.position - *m.reading) : kFar;
-  const bool agrees = moved <= kAgree;
+  const bool agrees = m.reading && std::abs(reading.position - *m.reading) <= kAgree;
+  if (std::abs(reading.position - m.rests_at) > kStill) {
+    m.rests_at = reading.position;
+    m.rests_since = now;
+  }
   m.reading = reading.position;
   if (agrees || state(i) == ServoState::kOn) {
     f.position = static_cast<float>(reading.position);
@@ -264,7 +268,8 @@ void ChainBus::TookReading(std::size_t i, const Reading& reading, Time now) noex
     // A load keeps a servo from its goal: close by and at rest is as near as it gets.
     const std::int32_t off = std::abs(reading.position - m.sent);
     const std::int32_t close = std::max(kThere, (m.high - m.low) / 50);
-    if (off <= kThere || (off <= close && moved <= 1)) {
+    const bool rests = Between(m.rests_since, now) >= kRest;
+    if (off <= kThere || (off <= close && rests)) {
       m.arriving = false;
       m.hurry = true;
     }
