@@ -64,11 +64,12 @@ TYPED_TEST(ChainBusTest, AnOldGoalNeverBecomesAJumpWhateverPacketIsLost) {
   for (std::size_t lost = 0; lost < 60; ++lost) {
     static std::size_t which;
     ChainContext<TypeParam> c(1);
-    which = lost;
+    c.Run(milliseconds(500));
+    c.StartAll();
+    which = c.peer.packets.size() + lost;
     c.peer.lose = [](std::size_t packet) { return packet == which; };
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < 300; ++i) {
       c.Tick();
-      if (i >= 120) c.StartAll();
       if (c.servo(1).torque) {
         ASSERT_EQ(c.servo(1).goal, 2010) << lost;
       }
@@ -76,6 +77,21 @@ TYPED_TEST(ChainBusTest, AnOldGoalNeverBecomesAJumpWhateverPacketIsLost) {
     }
     ASSERT_EQ(c.state(1), ServoState::kOn) << lost;
   }
+}
+
+TYPED_TEST(ChainBusTest, APositionIsBelievedWhenTwoAgree) {
+  ChainContext<TypeParam> c(1);
+  for (int i = 0; i < 100; ++i) {
+    c.servo(1).position = i % 2 == 0 ? 1200 : 2800;  // by each question another one
+    if (i % 4 >= 2) c.servo(1).position += 200;
+    c.Tick();
+    ASSERT_NE(c.state(1), ServoState::kLimp);
+    ASSERT_FALSE(c.feedback(1).position);
+  }
+  c.servo(1).position = 2000;
+  c.Run(milliseconds(100));
+  EXPECT_EQ(c.state(1), ServoState::kLimp);
+  EXPECT_EQ(c.feedback(1).position, 2000);
 }
 
 TYPED_TEST(ChainBusTest, ServosGetTheirTorqueOneAfterTheOther) {

@@ -271,6 +271,7 @@ TEST(MaestroBus, AReplyThatComesLateIsNotTakenForTheNext) {
     c.bus.Receive(reply, c.now);
     c.now += milliseconds(20);
   }
+  EXPECT_EQ(c.bus.status().lost, 20U) << "the late ones, and none was taken for another's";
   EXPECT_EQ(c.bus.status().serial_errors, 0);
   EXPECT_TRUE(c.bus.status().findings.empty());
   EXPECT_EQ(c.bus.status().torque_lost, 0U);

@@ -77,6 +77,14 @@ TEST(FeetechStatus, ErrorBitsAreTold) {
   EXPECT_EQ(c.read, Read{"1: errors 36"});
 }
 
+TEST(FeetechStatus, AnotherLengthThanWasAskedForIsNoReply) {
+  Context c({1}, 2);
+  c.Push(FromHex("FF FF 01 05 00 18 05 DC"));  // says three bytes, and its sum is right
+  EXPECT_TRUE(c.read.empty());
+  c.Push(FromHex(kPosition));
+  EXPECT_EQ(c.read, Read{"1:18 05"});
+}
+
 TEST(FeetechStatus, EachServoIsTakenOnceAndOthersNever) {
   Context c({2});
   c.Push(FromHex(kState1));
