@@ -257,6 +257,7 @@ TEST(MaestroBus, ABoardThatIsNotHeardAnyMoreIsToldToLetGo) {
 TEST(MaestroBus, AReplyThatComesLateIsNotTakenForTheNext) {
   Context c;
   c.RunUp();
+  const std::uint64_t before = c.bus.status().replies;
   for (int i = 0; i < 200; ++i) {
     const Bytes reply = c.board.Hear(c.bus.Tick(c.now, c.commands));
     // Every tenth reply comes 30 ms late, when it has been given up.
@@ -271,7 +272,8 @@ TEST(MaestroBus, AReplyThatComesLateIsNotTakenForTheNext) {
     c.bus.Receive(reply, c.now);
     c.now += milliseconds(20);
   }
-  EXPECT_EQ(c.bus.status().lost, 20U) << "the late ones, and none was taken for another's";
+  EXPECT_EQ(c.bus.status().lost, 20U);
+  EXPECT_EQ(c.bus.status().replies - before, 180U) << "a late one was taken for another's";
   EXPECT_EQ(c.bus.status().serial_errors, 0);
   EXPECT_TRUE(c.bus.status().findings.empty());
   EXPECT_EQ(c.bus.status().torque_lost, 0U);
