@@ -29,12 +29,14 @@ Bus::Bus(const BusOptions& options, std::size_t servos, double middle, double ow
                          (pose - middle) / own_per_rad, options.seed + 1000 + i);
   }
   conditions_.resize(servos);
-  for (const Fault& fault : options.faults.faults) faults_.push_back({fault, Time{}, Time{}});
+  for (const Fault& fault : options.faults.faults) Inject(fault);
 }
 
 void Bus::Inject(const Fault& fault) {
-  const Time start = start_ + fault.at;
-  faults_.push_back({fault, start, start + fault.lasts});
+  if (fault.servo >= models_.size()) return;
+  const auto earlier = std::upper_bound(coming_.begin(), coming_.end(), fault,
+                                        [](const Fault& a, const Fault& b) { return a.at > b.at; });
+  coming_.insert(earlier, fault);
 }
 
 void Bus::Advance(Time now) {
@@ -42,10 +44,6 @@ void Bus::Advance(Time now) {
     started_ = true;
     start_ = now_ = now;
     tick_ = now + kMillisecond;
-    for (Scheduled& s : faults_) {
-      s.start = start_ + s.fault.at;
-      s.end = s.start + s.fault.lasts;
-    }
   }
   while (true) {
     const Time byte_at =
@@ -148,16 +146,18 @@ void Bus::Happened(EventKind kind, int servo, int detail) {
 }
 
 void Bus::RunFaults() {
-  for (Scheduled& s : faults_) {
-    if (s.fault.servo >= models_.size()) continue;
-    if (!s.begun && s.start <= now_) {
-      s.begun = true;
-      Begin(s.fault);
-    } else if (s.begun && s.end > s.start && s.end <= now_) {
-      s.end = s.start;
-      End(s.fault);
-    }
+  const Duration age = now_ - start_;
+  while (!coming_.empty() && coming_.back().at <= age) {
+    const Fault fault = coming_.back();
+    coming_.pop_back();
+    Begin(fault);
+    if (fault.lasts > Duration{}) present_.push_back(fault);
   }
+  const auto over = std::stable_partition(present_.begin(), present_.end(),
+                                          [&](const Fault& f) { return f.at + f.lasts > age; });
+  const std::vector<Fault> ended(over, present_.end());
+  present_.erase(over, present_.end());
+  for (const Fault& fault : ended) End(fault);
 }
 
 void Bus::Begin(const Fault& fault) {

@@ -50,6 +50,7 @@ class Bus {
   const ServoModel& servo(std::size_t index) const { return models_[index]; }
   Trace& trace() { return trace_; }
   LineFaults& line_faults() { return line_.faults(); }
+  // A fault on top of those of the options; one whose time has passed begins at once.
   void Inject(const Fault& fault);
   double supply_V() const { return voltage_V_; }
   Time now() const { return now_; }
@@ -83,11 +84,6 @@ class Bus {
   void Happened(EventKind kind, int servo, int detail);
 
  private:
-  struct Scheduled {
-    Fault fault;
-    Time start, end;
-    bool begun = false;
-  };
   struct Condition {
     bool powered = true;
     bool mute = false;
@@ -106,7 +102,8 @@ class Bus {
   Trace trace_;
   std::vector<ServoModel> models_;
   std::vector<Condition> conditions_;
-  std::vector<Scheduled> faults_;
+  std::vector<Fault> coming_;   // the next one last
+  std::vector<Fault> present_;  // those that will end
   double open_supply_V_, supply_ohm_, voltage_V_;
   double own_per_rad_;
   bool started_ = false;
