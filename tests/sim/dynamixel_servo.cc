@@ -12,13 +12,13 @@ namespace {
 
 constexpr double kCountsPerRad = 4096 / (2 * std::numbers::pi);
 constexpr double kCentre = 2048;
-constexpr double kVelocityUnit_radps = 0.229 * kRpm;
+constexpr double kVelocityUnit = 0.229 * kRpm;
 // Profile acceleration's unit is 214.577 rev/min^2.
 constexpr double kAccelerationUnit = 214.577 / 60 * kRpm;
 // Assumed (README.md): persistent load means this share of the stall current for this long.
 constexpr double kOverloadShare = 0.8;
-constexpr int kOverload_ms = 1500;
-constexpr int kVoltage_ms = 100;
+constexpr int kOverloadMs = 1500;
+constexpr int kVoltageMs = 100;
 
 enum Mode : std::int32_t {
   kCurrent = 0,
@@ -224,7 +224,7 @@ void DynamixelServo::Protect(double supply_V) {
   const bool bad = tenths > table_.Get(dynamixel::kMaxVoltage) + 0.5 ||
                    tenths < table_.Get(dynamixel::kMinVoltage) - 0.5;
   voltage_ms_ = bad ? voltage_ms_ + 1 : 0;
-  if (voltage_ms_ > kVoltage_ms) {
+  if (voltage_ms_ > kVoltageMs) {
     Fail(dynamixel::kVoltageBit, EventKind::kVoltage, static_cast<int>(tenths));
   }
   if (motor_->temperature_C() > table_.Get(dynamixel::kTemperatureLimit)) {
@@ -232,7 +232,7 @@ void DynamixelServo::Protect(double supply_V) {
   }
   const double share = std::abs(motor_->current_A()) / motor_->parameters().stall_current_A;
   overload_ms_ = share > kOverloadShare ? overload_ms_ + 1 : 0;
-  if (overload_ms_ > kOverload_ms) Fail(dynamixel::kOverloadBit, EventKind::kOverload, 0);
+  if (overload_ms_ > kOverloadMs) Fail(dynamixel::kOverloadBit, EventKind::kOverload, 0);
 }
 
 void DynamixelServo::Drive() {
@@ -250,7 +250,7 @@ void DynamixelServo::Drive() {
     double speed = profile_speed_;
     double acceleration = profile_acceleration_;
     if (!HasDriveMode(kTimeProfileBit)) {
-      speed = table_.Get(dynamixel::kProfileVelocity) * kVelocityUnit_radps * kCountsPerRad / 1e3;
+      speed = table_.Get(dynamixel::kProfileVelocity) * kVelocityUnit * kCountsPerRad / 1e3;
       acceleration =
           table_.Get(dynamixel::kProfileAcceleration) * kAccelerationUnit * kCountsPerRad / 1e6;
     }
@@ -258,7 +258,7 @@ void DynamixelServo::Drive() {
     if (!tripped_) trajectory_.Step(table_.Get(dynamixel::kGoalPosition), speed, acceleration);
     motor_->GoTo(ToRad(trajectory_.position));
   } else if (mode == kVelocity) {
-    if (!tripped_) speed_goal_ = table_.Get(dynamixel::kGoalVelocity) * kVelocityUnit_radps;
+    if (!tripped_) speed_goal_ = table_.Get(dynamixel::kGoalVelocity) * kVelocityUnit;
     const bool reverse = HasDriveMode(kReverseBit);
     motor_->Turn(reverse ? -speed_goal_ : speed_goal_);
     trajectory_.Jump(ToCounts(motor_->sensed_rad()));
@@ -278,7 +278,7 @@ void DynamixelServo::Measure(double supply_V) {
   const auto set = [&](std::uint16_t address, double value) {
     table_.Set(address, static_cast<std::int32_t>(std::lround(value)));
   };
-  const double speed = sign * motor_->speed_radps() / kVelocityUnit_radps;
+  const double speed = sign * motor_->speed_radps() / kVelocityUnit;
   const double share = sign * motor_->current_A() / motor_->parameters().stall_current_A;
   set(dynamixel::kRealtimeTick, tick_ms_);
   set(dynamixel::kMoving, std::abs(speed) > table_.Get(dynamixel::kMovingThreshold) ? 1 : 0);
@@ -287,8 +287,7 @@ void DynamixelServo::Measure(double supply_V) {
       model_->measures_current ? sign * motor_->current_A() * 1000 : share * 1000);
   set(dynamixel::kPresentVelocity, speed);
   set(dynamixel::kPresentPosition, ToCounts(motor_->sensed_rad()));
-  set(dynamixel::kVelocityTrajectory,
-      trajectory_.speed * 1000 / kCountsPerRad / kVelocityUnit_radps);
+  set(dynamixel::kVelocityTrajectory, trajectory_.speed * 1000 / kCountsPerRad / kVelocityUnit);
   set(dynamixel::kPositionTrajectory, trajectory_.position);
   set(dynamixel::kPresentVoltage, supply_V * 10);
   set(dynamixel::kPresentTemperature, motor_->temperature_C());

@@ -10,7 +10,7 @@ constexpr std::array<double, 8> kRates = {1'000'000, 500'000, 250'000, 128'000,
                                           115'200,   76'800,  57'600,  38'400};
 constexpr unsigned kSign15 = 0x8000;
 constexpr unsigned kSign10 = 0x0400;
-constexpr double kCurrentUnit_A = 0.0065;
+constexpr double kCurrentUnit = 0.0065;
 constexpr double kAccelerationUnit = 100;  // counts per second and second
 constexpr int kCentreCode = 128;           // written to the torque switch
 
@@ -236,7 +236,7 @@ void FeetechServo::Protect(double supply_V) {
     SetStatus(feetech::kHeatBit, false);
   }
   const double current_A = std::abs(motor_->current_A());
-  const double most_A = Word(feetech::kProtectionCurrent) * kCurrentUnit_A;
+  const double most_A = Word(feetech::kProtectionCurrent) * kCurrentUnit;
   overcurrent_ms_ = series_->magnetic && most_A > 0 && current_A > most_A ? overcurrent_ms_ + 1 : 0;
   if (series_->magnetic && overcurrent_ms_ > Byte(feetech::kOvercurrentTime) * 10) {
     Raise(feetech::kCurrentBit, EventKind::kOvercurrent, static_cast<int>(current_A * 1000));
@@ -287,7 +287,7 @@ void FeetechServo::Measure(double supply_V) {
   SetByte(feetech::kMoving, std::abs(speed) > series_->counts / 400.0 ? 1 : 0);
   SetWord(67, static_cast<int>(goal_));
   if (series_->magnetic)
-    SetWord(feetech::kCurrent, Raw(motor_->current_A() / kCurrentUnit_A, kSign15));
+    SetWord(feetech::kCurrent, Raw(motor_->current_A() / kCurrentUnit, kSign15));
 }
 
 }  // namespace facewire::sim

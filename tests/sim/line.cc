@@ -1,6 +1,7 @@
 #include "tests/sim/line.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace facewire::sim {
@@ -11,16 +12,17 @@ void Line::Put(std::deque<Byte>& queue, Byte byte) {
   if (random_.Chance(faults_.flip)) {
     byte.value = static_cast<std::uint8_t>(byte.value ^ (1U << (random_.Next() % 8)));
   }
-  const auto later = std::upper_bound(queue.begin(), queue.end(), byte.end,
-                                      [](Nanos end, const Byte& b) { return end < b.end; });
-  queue.insert(later, random_.Chance(faults_.duplicate) ? 2 : 1, byte);
+  auto place = queue.end();
+  while (place != queue.begin() && std::prev(place)->end > byte.end) --place;
+  queue.insert(place, random_.Chance(faults_.duplicate) ? 2 : 1, byte);
 }
 
 // Damages `byte` and every one of `others` that is on the wire at the same time.
 void Line::Collide(std::deque<Byte>& others, Byte& byte) {
   bool hit = false;
   for (auto other = others.rbegin(); other != others.rend(); ++other) {
-    if (other->start >= byte.end || byte.start >= other->end) continue;
+    if (byte.start >= other->end) break;  // and so are those before it
+    if (other->start >= byte.end) continue;
     other->value = random_.Byte();
     hit = true;
   }

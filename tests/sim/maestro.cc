@@ -26,8 +26,8 @@ constexpr std::uint8_t kMiniSsc = 0xFF;
 constexpr int kUnknown = -1;
 constexpr Nanos kAnswerDelay = 100'000;
 // A servo that gets no pulse for two frames lets go.
-constexpr unsigned kFrame_ms = 20;
-constexpr unsigned kStep_ms = 10;
+constexpr unsigned kFrameMs = 20;
+constexpr unsigned kStepMs = 10;
 
 double SevenBitPair(std::uint8_t low, std::uint8_t high) { return low + 128.0 * high; }
 
@@ -300,13 +300,13 @@ void Maestro::OnMillisecond(Time) {
              static_cast<int>(options_.serial_timeout / Duration(1000)));
     Raise(kTimeout);
   }
-  if (millisecond_ % kStep_ms == 0) {
+  if (millisecond_ % kStepMs == 0) {
     for (Channel& channel : channels_) {
       if (channel.target == 0 || channel.pulse.position == 0) continue;
       channel.pulse.Step(channel.target, channel.speed, channel.acceleration / 8.0);
     }
   }
-  if (millisecond_ % kFrame_ms != 0) return;
+  if (millisecond_ % kFrameMs != 0) return;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const double width = std::round(channels_[i].pulse.position);
     // A missing pulse is noticed a frame later.

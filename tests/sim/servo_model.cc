@@ -78,14 +78,14 @@ void ServoModel::Move(double torque_Nm) {
   const double friction = friction_Nm_ + load_.friction_Nm;
   if (speed_radps_ == 0) {
     if (std::abs(torque_Nm) <= friction) return;
-    speed_radps_ = (torque_Nm - std::copysign(friction, torque_Nm)) / inertia_ * kStep_s;
+    speed_radps_ = (torque_Nm - std::copysign(friction, torque_Nm)) / inertia_ * kStepSeconds;
   } else {
-    const double braked =
-        speed_radps_ + (torque_Nm - std::copysign(friction, speed_radps_)) / inertia_ * kStep_s;
+    const double braked = speed_radps_ + (torque_Nm - std::copysign(friction, speed_radps_)) /
+                                             inertia_ * kStepSeconds;
     // Friction stops a motion, it never turns one round.
     speed_radps_ = braked * speed_radps_ > 0 ? braked : 0;
   }
-  motor_rad_ += speed_radps_ * kStep_s;
+  motor_rad_ += speed_radps_ * kStepSeconds;
   if (motor_rad_ >= upper_rad_ || motor_rad_ <= lower_rad_) {
     motor_rad_ = std::clamp(motor_rad_, lower_rad_, upper_rad_);
     speed_radps_ = 0;
@@ -94,10 +94,10 @@ void ServoModel::Move(double torque_Nm) {
 
 // The output shaft lies anywhere within the play, and falls to the side that its load pulls to.
 void ServoModel::FollowWithPlay(double load_Nm) {
-  constexpr double kFall_radps = 5;
+  constexpr double kFallSpeed = 5;
   const double half = parameters_.backlash_rad / 2;
   if (std::abs(load_Nm) > load_.friction_Nm) {
-    output_rad_ += std::copysign(kFall_radps * kStep_s, load_Nm);
+    output_rad_ += std::copysign(kFallSpeed * kStepSeconds, load_Nm);
   }
   output_rad_ = std::clamp(output_rad_, motor_rad_ - half, motor_rad_ + half);
 }
@@ -123,8 +123,8 @@ void ServoModel::Step(double supply_V) {
   Sense();
 
   const double loss_W = current_A_ * current_A_ * resistance_ohm_;
-  temperature_C_ += (kRoom_C + loss_W * parameters_.heat_rise_C_per_W - temperature_C_) * kStep_s /
-                    parameters_.heat_time_constant_s;
+  temperature_C_ += (kRoomCelsius + loss_W * parameters_.heat_rise_C_per_W - temperature_C_) *
+                    kStepSeconds / parameters_.heat_time_constant_s;
   if (temperature_C_ >= parameters_.burns_at_C) burnt_ = true;
 }
 

@@ -14,8 +14,8 @@ namespace facewire::sim {
 // proportional position loop with dead band, and one lump of heat. Knows nothing of wires.
 class ServoModel {
  public:
-  static constexpr double kStep_s = 0.001;
-  static constexpr double kRoom_C = 25;
+  static constexpr double kStepSeconds = 0.001;
+  static constexpr double kRoomCelsius = 25;
 
   ServoModel(const ServoParameters& parameters, const ServoLoad& load, double start_rad,
              std::uint64_t seed);
@@ -28,7 +28,7 @@ class ServoModel {
   void LimitDuty(double duty) { duty_limit_ = duty; }  // 0..1
   void LimitCurrent(double limit_A) { current_limit_A_ = limit_A; }
 
-  // Moves on by kStep_s.
+  // Moves on by kStepSeconds.
   void Step(double supply_V);
 
   const ServoParameters& parameters() const { return parameters_; }
@@ -76,7 +76,7 @@ class ServoModel {
   double speed_radps_ = 0;
   double duty_ = 0;
   double current_A_ = 0;
-  double temperature_C_ = kRoom_C;
+  double temperature_C_ = kRoomCelsius;
   double sensor_error_rad_ = 0;
   bool burnt_ = false;
 };

@@ -14,7 +14,8 @@ ServoModel Unloaded(const ServoParameters& parameters, double start_rad = 0) {
 }
 
 void RunFor(ServoModel& servo, double seconds, double supply_V) {
-  for (int i = 0; i < static_cast<int>(seconds / ServoModel::kStep_s); ++i) servo.Step(supply_V);
+  for (int i = 0; i < static_cast<int>(seconds / ServoModel::kStepSeconds); ++i)
+    servo.Step(supply_V);
 }
 
 double SecondsBetween(ServoModel& servo, double from_rad, double to_rad, double supply_V) {
@@ -23,7 +24,7 @@ double SecondsBetween(ServoModel& servo, double from_rad, double to_rad, double 
     servo.Step(supply_V);
     if (servo.position_rad() >= from_rad) ++steps;
   }
-  return steps * ServoModel::kStep_s;
+  return steps * ServoModel::kStepSeconds;
 }
 
 class EveryServo : public testing::TestWithParam<ServoParameters> {};
@@ -84,7 +85,7 @@ TEST_P(EveryServo, HardlyHeatsWhenItHoldsNothing) {
   ServoModel servo = Unloaded(p);
   servo.GoTo(10 * kDegree);
   RunFor(servo, 120, p.nominal_V);
-  EXPECT_LT(servo.temperature_C(), ServoModel::kRoom_C + 5);
+  EXPECT_LT(servo.temperature_C(), ServoModel::kRoomCelsius + 5);
 }
 
 TEST(ServoModel, GivesWayUnderAConstantLoad) {
@@ -118,33 +119,21 @@ TEST(ServoModel, StaysWhereItIsReleasedWhenItsGearsHoldTheLoad) {
   EXPECT_NEAR(servo.position_rad(), kLevel, 0.3 * kDegree);
 }
 
-TEST(ServoModel, ShowsItsBacklashWhenTheDirectionTurns) {
+TEST(ServoModel, ItsShaftStandsStillForThePlayWhenTheDirectionTurns) {
   const ServoParameters p = Sts3215();
+  constexpr double kSpeed = 0.5;
   ServoModel servo = Unloaded(p);
-  double up = 0;
-  double down = 0;
-  for (const double from : {-40.0, 40.0}) {
-    servo.GoTo(from * kDegree);
-    RunFor(servo, 2, p.nominal_V);
-    const double before = servo.position_rad();
-    // A slow crawl: the shaft follows only after the play.
-    double motion = 0;
-    for (int i = 0; i < 200; ++i) {
-      servo.Push(from < 0 ? -0.07 : 0.07);  // on in the same direction
-      servo.Step(p.nominal_V);
-    }
-    const double turned_at = servo.position_rad();
-    int still = 0;
-    for (int i = 0; i < 400 && motion < 1e-4; ++i) {
-      servo.Push(from < 0 ? 0.08 : -0.08);
-      servo.Step(p.nominal_V);
-      motion = std::abs(servo.position_rad() - turned_at);
-      if (motion < 1e-4) ++still;
-    }
-    EXPECT_GT(still, 10) << before;
-    (from < 0 ? up : down) = still;
-  }
-  EXPECT_NEAR(up, down, 30);
+  servo.Turn(kSpeed);
+  RunFor(servo, 0.5, p.nominal_V);
+  servo.Turn(-kSpeed);
+  int still_ms = 0;
+  double before = 0;
+  do {
+    before = servo.position_rad();
+    servo.Step(p.nominal_V);
+    if (servo.position_rad() == before) ++still_ms;
+  } while (servo.position_rad() >= before);
+  EXPECT_NEAR(still_ms, 1000 * p.backlash_rad / kSpeed, 10);
 }
 
 TEST(ServoModel, LeavesAnErrorWithinItsDeadBand) {
@@ -178,7 +167,7 @@ TEST(ServoModel, HeatsWithItsTimeConstant) {
   servo.GoTo(80 * kDegree);
   const double loss_W = 0.5 * 0.5 * p.nominal_V / p.stall_current_A;
   RunFor(servo, p.heat_time_constant_s, p.nominal_V);
-  EXPECT_NEAR(servo.temperature_C() - ServoModel::kRoom_C,
+  EXPECT_NEAR(servo.temperature_C() - ServoModel::kRoomCelsius,
               loss_W * p.heat_rise_C_per_W * (1 - std::exp(-1)), 0.1);
 }
 
