@@ -117,6 +117,7 @@ void Bus::Record() {
     trace_.Add(Sample{.at = now_,
                       .servo = static_cast<int>(i),
                       .torque_on = model.driven(),
+                      .goal = static_cast<float>(Goal(i)),
                       .commanded = static_cast<float>(Commanded(i)),
                       .position = static_cast<float>(Position(i)),
                       .speed = static_cast<float>(model.speed_radps() * own_per_rad_),

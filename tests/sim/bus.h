@@ -55,7 +55,9 @@ class Bus {
   double supply_V() const { return voltage_V_; }
   Time now() const { return now_; }
 
-  // In the servo's own unit: where its controller is told to be right now, and where it truly is.
+  // In the servo's own unit, as Sample says it: what the host last asked for, where the servo is
+  // told to be right now, and where it truly is.
+  virtual double Goal(std::size_t index) const = 0;
   virtual double Commanded(std::size_t index) const = 0;
   double Position(std::size_t index) const { return ToOwn(models_[index].position_rad()); }
   bool TorqueOn(std::size_t index) const { return models_[index].driven(); }

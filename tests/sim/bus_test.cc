@@ -177,7 +177,7 @@ TEST(TraceCsv, HasAsManyFieldsInEveryRow) {
   EXPECT_EQ(commas(CsvLine(Sample{})), commas(CsvHeader()));
   const Event event{Time{}, 1, EventKind::kBurnt, 110};
   EXPECT_EQ(commas(CsvLine(event)), commas(CsvHeader()));
-  EXPECT_EQ(CsvLine(event), "0,1,burnt,110,,,,,,,,\n");
+  EXPECT_EQ(CsvLine(event), "0,1,burnt,110,,,,,,,,,\n");
 }
 
 TEST(FaultText, IsARateOrAFault) {

@@ -24,6 +24,9 @@ class Dynamixel final : public Bus {
  public:
   explicit Dynamixel(const DynamixelOptions& options);
 
+  double Goal(std::size_t index) const override {
+    return chain_[index].table().Get(dynamixel::kGoalPosition);
+  }
   double Commanded(std::size_t index) const override { return chain_[index].trajectory(); }
   double ToOwn(double rad) const override { return 2048 + rad * kCountsPerRad; }
   double ToRad(double own) const override { return (own - 2048) / kCountsPerRad; }

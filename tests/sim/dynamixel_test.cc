@@ -338,6 +338,51 @@ TEST_F(WatchdogOnBench, SleepsWithoutTorque) {
   EXPECT_EQ(bench.Count(EventKind::kWatchdog), 0U);
 }
 
+TEST_F(DynamixelOnBench, HoldsItsPlaceInPositionModeWhenItsWatchdogTrips) {
+  TorqueOn();
+  EXPECT_EQ(Write(1, 112, 50, 4), 0);
+  EXPECT_EQ(Write(1, 98, 5, 1), 0);
+  bench.Send(WritePacket(1, 116, 3500, 4));
+  bench.Wait(milliseconds(300));
+  const double here = bench.bus.Position(0);
+  EXPECT_GT(here, 2060);
+  EXPECT_LT(here, 2400);
+  bench.Wait(seconds(3));
+  EXPECT_NEAR(bench.bus.Position(0), here, 6);
+  EXPECT_TRUE(bench.bus.TorqueOn(0));
+}
+
+TEST_F(DynamixelOnBench, GoesFreeInCurrentModeWhenItsWatchdogTrips) {
+  EXPECT_EQ(Write(1, 11, 0, 1), 0);
+  TorqueOn();
+  EXPECT_EQ(Write(1, 98, 5, 1), 0);
+  EXPECT_EQ(Write(1, 102, 300, 2), 0);
+  EXPECT_GT(bench.bus.servo(0).current_A(), 0.1);
+  bench.Wait(seconds(1));
+  EXPECT_NEAR(bench.bus.servo(0).current_A(), 0, 0.001);
+}
+
+TEST_F(DynamixelOnBench, LimitsItsCurrentInCurrentBasedPositionMode) {
+  EXPECT_EQ(Write(1, 11, 5, 1), 0);
+  TorqueOn();
+  EXPECT_EQ(Write(1, 102, 200, 2), 0);
+  bench.bus.servo(0).Jam(0);
+  EXPECT_EQ(Write(1, 116, 4000, 4), 0);
+  bench.Wait(seconds(3));
+  EXPECT_NEAR(bench.bus.servo(0).current_A(), 0.2, 0.001);
+  EXPECT_EQ(Entry(dynamixel::kHardwareError), 0);
+}
+
+TEST(DynamixelSupply, ShutsDownWhenItsVoltageIsTooLow) {
+  DynamixelOptions options = Chain({1});
+  options.supply_V = 3.35;
+  Bench<Dynamixel> bench(options);
+  bench.Wait(seconds(1));
+  EXPECT_EQ(bench.bus.Entry(0, dynamixel::kHardwareError), 1 << dynamixel::kVoltageBit);
+  bench.Ask(WritePacket(1, 64, 1, 1));
+  EXPECT_FALSE(bench.bus.TorqueOn(0));
+}
+
 TEST_F(DynamixelOnBench, ShutsDownOnOverloadUntilItIsRebooted) {
   TorqueOn();
   bench.bus.servo(0).Jam(0);

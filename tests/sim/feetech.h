@@ -24,6 +24,7 @@ class Feetech final : public Bus {
  public:
   explicit Feetech(const FeetechOptions& options);
 
+  double Goal(std::size_t index) const override { return chain_[index].goal(); }
   double Commanded(std::size_t index) const override { return chain_[index].commanded(); }
   double ToOwn(double rad) const override { return middle_ + rad * counts_per_rad_; }
   double ToRad(double own) const override { return (own - middle_) / counts_per_rad_; }

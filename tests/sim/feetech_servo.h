@@ -68,6 +68,7 @@ class FeetechServo {
   std::uint8_t id() const { return memory_[feetech::kId]; }
   double baud() const;  // 0: an entry that means none
   std::uint8_t status() const { return memory_[feetech::kStatus]; }
+  double goal() const { return goal_; }  // within the servo's limits
   double commanded() const { return path_.position; }
 
  private:

@@ -138,6 +138,28 @@ TEST_F(StsOnBench, AnswersNothingToADamagedPacket) {
   EXPECT_EQ(bench.Count(EventKind::kDamagedPacket), 1U);
 }
 
+TEST_F(StsOnBench, CarriesOutADamagedPacketWhoseSumIsRight) {
+  // Two bytes changed places: a sum cannot see that. Goal 2304 became 9.
+  Bytes packet = Goal(1, 2304);
+  std::swap(packet[6], packet[7]);
+  bench.Ask(packet);
+  EXPECT_EQ(bench.bus.Goal(0), 9);
+  EXPECT_EQ(bench.Count(EventKind::kDamagedPacket), 0U);
+}
+
+TEST_F(StsOnBench, TakesAsManyServosInASyncWriteAsOneByteOfLengthAllows) {
+  FeetechOptions options = Chain({});
+  Bytes params = {41, 7};
+  for (std::uint8_t id = 1; id <= 31; ++id) {
+    options.ids.push_back(id);
+    params = params + Bytes{id, 0} + Little(2100) + Little(0) + Little(0);
+  }
+  ASSERT_EQ(params.size() + 2, 252U);
+  Bench<Feetech> many(options);
+  many.Ask(Packet(0xFE, 0x83, params));
+  EXPECT_EQ(many.bus.Goal(30), 2100);
+}
+
 TEST_F(StsOnBench, AllTalkAtOnceAfterABroadcastPing) {
   const Bytes answer = bench.Ask(Packet(0xFE, 0x01, {}));
   EXPECT_GE(bench.Count(EventKind::kCollision), 1U);

@@ -63,6 +63,7 @@ class Maestro final : public Bus {
 
   explicit Maestro(const MaestroOptions& options);
 
+  double Goal(std::size_t index) const override { return channels_[index].target / 4; }
   double Commanded(std::size_t index) const override { return pulses_[index] / 4; }
   double ToOwn(double rad) const override { return 1500 + rad / kRadPerUs; }
   double ToRad(double own) const override { return (own - 1500) * kRadPerUs; }

@@ -169,6 +169,52 @@ TEST_F(MaestroOnBench, HasNoMultipleTargetsOnTheMicro) {
   EXPECT_EQ(PositionQuarters(4), 0U);
 }
 
+TEST_F(MaestroOnBench, HasNoPwmOnTheMicro) {
+  bench.Send(Hex("8A 00 01 00 02"));
+  EXPECT_EQ(Errors(), 1U << Maestro::kProtocolError);
+}
+
+TEST_F(MaestroOnBench, RefusesAChannelThatItDoesNotHave) {
+  bench.Send(Target(6, 6000));
+  EXPECT_EQ(Errors(), 1U << Maestro::kProtocolError);
+}
+
+TEST_F(MaestroOnBench, HasNoSerialTimeoutFromTheWorks) {
+  bench.Send(Target(0, 6000));
+  bench.Wait(std::chrono::minutes(10));
+  EXPECT_TRUE(bench.bus.TorqueOn(0));
+  EXPECT_EQ(Errors(), 0U);
+}
+
+TEST_F(MaestroOnBench, ChangesAPulseOnlyEveryTwentyMilliseconds) {
+  bench.bus.trace().KeepSamples(Trace::Keep::kEveryMillisecond);
+  bench.Send(Target(0, 4000) + Hex("87 00 0A 00") + Target(0, 8000));
+  bench.Wait(seconds(1));
+  Time last{};
+  float width = 0;
+  for (const Sample& s : bench.bus.trace().samples()) {
+    if (s.servo != 0 || s.commanded == width) continue;
+    EXPECT_EQ((s.at - last) % milliseconds(20), Duration{});
+    width = s.commanded;
+    last = s.at;
+  }
+  EXPECT_GT(width, 1000);
+}
+
+TEST_F(MaestroOnBench, AnUnpluggedServoJumpsToItsPulseWhenItReturns) {
+  bench.Send(Target(0, 4000));
+  bench.Wait(seconds(1));
+  bench.bus.Inject({.kind = FaultKind::kVanish,
+                    .servo = 0,
+                    .at = bench.now.time_since_epoch(),
+                    .lasts = seconds(1)});
+  bench.Wait(milliseconds(500));
+  EXPECT_FALSE(bench.bus.TorqueOn(0));
+  bench.Send(Target(0, 8000));
+  bench.Wait(seconds(2));
+  EXPECT_NEAR(bench.bus.Position(0), 2000, 15);
+}
+
 TEST_F(MaestroOnBench, TakesAnInterruptedPacketAsAProtocolErrorAndCarriesOutTheSecond) {
   bench.Send(Hex("84 01") + Hex("84 02 70 2E"));
   EXPECT_EQ(PositionQuarters(2), 6000U);
@@ -352,6 +398,13 @@ TEST(MaestroPorts, FromTheWorksItsPinHearsNothingBeforeTheFirstAa) {
   Bench<Maestro> bench(options);
   EXPECT_THAT(bench.Ask(Hex("A1")), IsEmpty());
   EXPECT_THAT(bench.Ask(Hex("AA 0C 21")), ElementsAre(0, 0));
+}
+
+TEST(MaestroPorts, WhatComesInAtTheTtlPortIsNoCommand) {
+  MaestroOptions options = Model(6);
+  options.port = MaestroOptions::Port::kTtlPort;
+  Bench<Maestro> bench(options);
+  EXPECT_THAT(bench.Ask(Hex("A1")), IsEmpty());
 }
 
 TEST(MaestroPorts, TwentyFourTargetsTakeTheTimeOfTheGuideAt115200Baud) {

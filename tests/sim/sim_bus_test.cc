@@ -59,7 +59,7 @@ class SimBusProgram : public testing::Test {
     std::string row;
     double position = 0;
     while (std::getline(trace, row)) {
-      std::sscanf(row.c_str(), "%*d,%*d,,,%*d,%*f,%lf,", &position);
+      std::sscanf(row.c_str(), "%*d,%*d,,,%*d,%*f,%*f,%lf,", &position);
     }
     return position;
   }

@@ -21,7 +21,8 @@ bool ChangeFilter::operator()(const Sample& sample) {
   if (last_.size() <= index) last_.resize(index + 1);
   Sample& last = last_[index];
   const bool change =
-      last.servo == kWholeBus || (sample.torque_on && sample.commanded != last.commanded) ||
+      last.servo == kWholeBus ||
+      (sample.torque_on && (sample.goal != last.goal || sample.commanded != last.commanded)) ||
       sample.torque_on != last.torque_on || std::abs(sample.position - last.position) >= 0.5F ||
       std::abs(sample.temperature_C - last.temperature_C) >= 0.5F;
   if (change) last = sample;
@@ -47,22 +48,22 @@ std::size_t Trace::Count(EventKind kind, int servo) const {
 }
 
 std::string CsvHeader() {
-  return "t_us,servo,event,detail,torque_on,commanded,position,speed,current_A,temperature_C,"
+  return "t_us,servo,event,detail,torque_on,goal,commanded,position,speed,current_A,temperature_C,"
          "torque_Nm,voltage_V\n";
 }
 
 std::string CsvLine(const Sample& s) {
   std::array<char, 200> line;
-  std::snprintf(line.data(), line.size(), "%lld,%d,,,%d,%.2f,%.2f,%.1f,%.3f,%.1f,%.4f,%.2f\n",
+  std::snprintf(line.data(), line.size(), "%lld,%d,,,%d,%.2f,%.2f,%.2f,%.1f,%.3f,%.1f,%.4f,%.2f\n",
                 static_cast<long long>(s.at.time_since_epoch().count()), s.servo,
-                s.torque_on ? 1 : 0, s.commanded, s.position, s.speed, s.current_A, s.temperature_C,
-                s.torque_Nm, s.voltage_V);
+                s.torque_on ? 1 : 0, s.goal, s.commanded, s.position, s.speed, s.current_A,
+                s.temperature_C, s.torque_Nm, s.voltage_V);
   return line.data();
 }
 
 std::string CsvLine(const Event& e) {
   std::array<char, 100> line;
-  std::snprintf(line.data(), line.size(), "%lld,%d,%s,%d,,,,,,,,\n",
+  std::snprintf(line.data(), line.size(), "%lld,%d,%s,%d,,,,,,,,,\n",
                 static_cast<long long>(e.at.time_since_epoch().count()), e.servo, Name(e.kind),
                 e.detail);
   return line.data();

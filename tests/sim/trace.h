@@ -48,12 +48,14 @@ struct Event {
 };
 
 // One servo at one instant. Positions and speeds are in the servo's own unit (us of pulse width, or
-// counts; per second). `commanded` is where its controller is told to be right now: the pulse that
-// is on the wire, or the goal after the servo's own speed and acceleration limits.
+// counts; per second). `goal` is what the host last asked for; `commanded` is what the servo is
+// told to be at right now: the pulse that is on the wire, or the goal after its own speed and
+// acceleration limits. Both say nothing while the torque is off.
 struct Sample {
   Time at{};
   int servo = kWholeBus;
   bool torque_on = false;
+  float goal = 0;
   float commanded = 0;
   float position = 0;  // true, of the output shaft
   float speed = 0;
