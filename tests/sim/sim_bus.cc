@@ -1,15 +1,20 @@
 // sim_bus: one simulated servo bus in real time on a pseudo-terminal, for programs that want a
 // serial device. Ends on SIGINT or SIGTERM.
 
+#include <fcntl.h>
+#include <termios.h>
+
 #include <array>
 #include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
+#include "hal/posix/unique_fd.h"
 #include "hal/pty/pty_host.h"
 #include "hal/system_clock.h"
 #include "tests/sim/sim_bus_options.h"
@@ -42,6 +47,29 @@ class TraceFile {
   ChangeFilter is_change_;
 };
 
+// The baud rate that whoever has the device open has set on it; 0: one that is not in the list.
+double RateOf(const std::string& device) {
+  constexpr std::array<std::pair<speed_t, double>, 12> kRates = {{{B9600, 9600},
+                                                                  {B38400, 38400},
+                                                                  {B57600, 57600},
+                                                                  {B115200, 115200},
+                                                                  {B230400, 230400},
+                                                                  {B460800, 460800},
+                                                                  {B500000, 500000},
+                                                                  {B921600, 921600},
+                                                                  {B1000000, 1e6},
+                                                                  {B2000000, 2e6},
+                                                                  {B3000000, 3e6},
+                                                                  {B4000000, 4e6}}};
+  const hal::posix::UniqueFd fd(::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  termios settings{};
+  if (::tcgetattr(fd.get(), &settings) != 0) return 0;
+  for (const auto& [code, rate] : kRates) {
+    if (code == ::cfgetospeed(&settings)) return rate;
+  }
+  return 0;
+}
+
 int Fail(const std::string& what) {
   std::fprintf(stderr, "sim_bus: %s\n", what.c_str());
   return 1;
@@ -70,6 +98,9 @@ int Run(SimBusOptions& options) {
     std::array<std::byte, 4096> buffer;
     const Result<std::size_t> got = line.Read(buffer, milliseconds(1));
     const Time now = clock.Now();
+    const bool understood =
+        !got || options.strict_baud == 0 || RateOf(line.device_path()) == options.strict_baud;
+    if (got && !understood) continue;  // at another rate bytes are no bytes
     if (got) {
       options.bus->Receive(std::span(buffer).first(*got), now);
     } else if (got.error() != Errc::kTimeout) {

@@ -16,6 +16,8 @@
 namespace facewire::sim {
 namespace {
 
+constexpr double kChainBaud = 1'000'000;
+
 struct Given {
   std::string kind;
   std::size_t servos = 0;  // 0: the kind's own number
@@ -26,6 +28,7 @@ struct Given {
   std::vector<std::string> faults;
   std::uint64_t seed = 1;
   bool crc = false;
+  bool strict_baud = false;
   int timeout_ms = 0;
   int device = 12;
 };
@@ -44,6 +47,8 @@ void Declare(CLI::App& app, Given& given) {
   app.add_option(
       "--baud", given.baud,
       "of the line (default 1000000 on chains; on a Maestro's USB port it does not matter)");
+  app.add_flag("--strict-baud", given.strict_baud,
+               "a chain hears only a host that has set its baud rate on the line");
   app.add_option("--pose", given.pose,
                  "where the servos are at power-on: middle, random, or a position for all");
   app.add_option("--gravity", given.gravity_Nm, "torque of a level arm on every servo, Nm");
@@ -162,7 +167,7 @@ std::unique_ptr<Bus> MakeMaestro(const Given& given) {
 std::unique_ptr<Bus> MakeDynamixel(const Given& given, const DynamixelModel& model) {
   DynamixelOptions options(model);
   options.ids = Ids(given);
-  options.baud = 1'000'000;
+  options.baud = kChainBaud;
   Fill(given, options.ids.size(), 0, 4095, options);
   return std::make_unique<Dynamixel>(options);
 }
@@ -170,11 +175,15 @@ std::unique_ptr<Bus> MakeDynamixel(const Given& given, const DynamixelModel& mod
 std::unique_ptr<Bus> MakeFeetech(const Given& given, const FeetechSeries& series) {
   FeetechOptions options(series);
   options.ids = Ids(given);
+  options.baud = kChainBaud;
   Fill(given, options.ids.size(), 0, series.counts - 1, options);
   return std::make_unique<Feetech>(options);
 }
 
 std::unique_ptr<Bus> Make(const Given& given) {
+  if (given.strict_baud && given.kind == "maestro") {
+    Refuse("--strict-baud: a Maestro's USB port does not mind the rate");
+  }
   if (given.baud != 0 && !(given.baud >= 1200 && given.baud <= 10e6)) {
     Refuse("--baud: from 1200 to 10000000");
   }
@@ -213,6 +222,7 @@ SimBusOptions ParseSimBusOptions(int count, const char* const* arguments, int& e
   }
   options.link = given.link;
   options.trace = given.trace;
+  if (given.strict_baud) options.strict_baud = given.baud == 0 ? kChainBaud : given.baud;
   options.runs = Duration(static_cast<Duration::rep>(given.seconds * 1e6));
   options.about = given.kind + " with " + std::to_string(options.bus->servos()) + " servos";
   return options;

@@ -21,6 +21,7 @@ namespace {
 using app::Process;
 using app::Scratch;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 class SimBusProgram : public testing::Test {
@@ -91,6 +92,23 @@ TEST_F(SimBusProgram, AnswersAsAMaestro) {
   EXPECT_EQ(Ask(Hex("90 0B"), 2), Hex("70 17"));
 }
 
+const Bytes kGoal = Hex("FF FF 01 09 03 2A 00 09 00 00 E8 03 D4");
+
+TEST_F(SimBusProgram, HearsTheRightBaudRateWhenItIsStrict) {
+  const auto program = Start({"sts", "--strict-baud", "--baud", "115200"});
+  AwaitReady(*program);
+  EXPECT_EQ(Ask(kGoal, 6), Hex("FF FF 01 02 00 FC"));
+}
+
+TEST_F(SimBusProgram, IsDeafToAnotherBaudRateWhenItIsStrict) {
+  const auto program = Start({"sts", "--strict-baud", "--seconds", "0.3"});  // at 1 Mbaud
+  AwaitReady(*program);
+  const hal::posix::UniqueFd line = hal::test::OpenRawTty(link_);  // at 115200
+  hal::test::SendAll(line.get(), Raw(kGoal));
+  EXPECT_EQ(program->Wait(), 0);
+  EXPECT_THAT(program->out(), Not(HasSubstr("torque-on")));
+}
+
 TEST_F(SimBusProgram, WritesATraceOfWhatTheServosDo) {
   const auto program = Start({"sts", "--servos", "1", "--trace", scratch_ / "trace.csv"});
   AwaitReady(*program);
@@ -134,6 +152,7 @@ TEST_F(SimBusProgram, RefusesBadOptionsInOneLine) {
   EXPECT_THAT(Refusal({"sts", "--fault", "melt:0@1"}), HasSubstr("'melt:0@1'"));
   EXPECT_THAT(Refusal({"sts", "--fault", "mute:4@1"}), HasSubstr("no servo 4"));
   EXPECT_THAT(Refusal({"sts", "--baud", "5"}), HasSubstr("--baud"));
+  EXPECT_THAT(Refusal({"maestro", "--strict-baud"}), HasSubstr("does not mind"));
   EXPECT_THAT(Refusal({"sts", "--speed", "5"}), HasSubstr("--speed"));
   EXPECT_THAT(Refusal({"sts", "--trace", "/nowhere/at/all.csv"}), HasSubstr("--trace"));
 }
