@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace facewire::sim {
 namespace {
@@ -13,6 +14,8 @@ constexpr Duration kBrownOutTakes{300'000};
 Nanos ToNanos(Time time) { return time.time_since_epoch().count() * 1000; }
 // Rounded up: at this microsecond it has happened.
 Time FromNanos(Nanos nanos) { return Time(Duration((nanos + 999) / 1000)); }
+
+bool IsLater(const Fault& a, const Fault& b) { return a.at > b.at; }
 
 }  // namespace
 
@@ -29,14 +32,14 @@ Bus::Bus(const BusOptions& options, std::size_t servos, double middle, double ow
                          (pose - middle) / own_per_rad, options.seed + 1000 + i);
   }
   conditions_.resize(servos);
-  for (const Fault& fault : options.faults.faults) Inject(fault);
+  std::copy_if(options.faults.faults.begin(), options.faults.faults.end(),
+               std::back_inserter(coming_), [&](const Fault& f) { return f.servo < servos; });
+  std::stable_sort(coming_.begin(), coming_.end(), IsLater);
 }
 
 void Bus::Inject(const Fault& fault) {
   if (fault.servo >= models_.size()) return;
-  const auto earlier = std::upper_bound(coming_.begin(), coming_.end(), fault,
-                                        [](const Fault& a, const Fault& b) { return a.at > b.at; });
-  coming_.insert(earlier, fault);
+  coming_.insert(std::upper_bound(coming_.begin(), coming_.end(), fault, IsLater), fault);
 }
 
 void Bus::Advance(Time now) {

@@ -40,9 +40,10 @@ void Declare(CLI::App& app, Given& given) {
       ->required();
   app.add_option("--link", given.link, "where to put the link to the line")->required();
   app.add_option(
-      "--servos", given.servos,
-      "how many; a Maestro has 6, 12, 18 or 24 channels (default 6), a chain's servos get "
-      "the ids from 1 (default 4)");
+         "--servos", given.servos,
+         "how many; a Maestro has 6, 12, 18 or 24 channels (default 6), a chain's servos get "
+         "the ids from 1 (default 4)")
+      ->check(CLI::Range(1, 252));
   app.add_option("--ids", given.ids, "the ids of a chain's servos, such as 1,2,7")->delimiter(',');
   app.add_option(
       "--baud", given.baud,
@@ -93,7 +94,6 @@ std::vector<std::uint8_t> Ids(const Given& given) {
   }
   if (!ids.empty()) return ids;
   const std::size_t count = given.servos == 0 ? 4 : given.servos;
-  if (count > 252) Refuse("--servos: a chain has 1 to 252 servos");
   for (std::size_t i = 1; i <= count; ++i) ids.push_back(static_cast<std::uint8_t>(i));
   return ids;
 }
@@ -190,8 +190,8 @@ std::unique_ptr<Bus> Make(const Given& given) {
   if (given.supply_V < 0 || given.supply_V > 60) Refuse("--supply: from 0 to 60 V");
   if (given.supply_ohm < 0 || given.supply_ohm > 100) Refuse("--supply-ohm: from 0 to 100");
   if (given.seconds < 0 || given.seconds > 1e6) Refuse("--seconds: from 0 to 1000000");
-  if (given.random_faults < 0 || given.random_faults > 1000)
-    Refuse("--random-faults: from 0 to 1000");
+  if (given.random_faults < 0 || given.random_faults > 100)
+    Refuse("--random-faults: from 0 to 100");
   if (given.kind == "maestro") return MakeMaestro(given);
   if (given.kind == "xl330") return MakeDynamixel(given, Xl330());
   if (given.kind == "xl430") return MakeDynamixel(given, Xl430());

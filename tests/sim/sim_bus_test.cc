@@ -147,6 +147,8 @@ TEST_F(SimBusProgram, RefusesBadOptionsInOneLine) {
   EXPECT_THAT(Refusal({"sts", "--ids", "300"}), HasSubstr("300"));
   EXPECT_THAT(Refusal({"sts", "--servos", "3", "--ids", "1"}), HasSubstr("not both"));
   EXPECT_THAT(Refusal({"sts", "--servos", "x"}), HasSubstr("--servos"));
+  EXPECT_THAT(Refusal({"sts", "--servos", "0"}), HasSubstr("--servos"));
+  EXPECT_THAT(Refusal({"sts", "--random-faults", "1000"}), HasSubstr("--random-faults"));
   EXPECT_THAT(Refusal({"sts", "--pose", "high"}), HasSubstr("middle, random"));
   EXPECT_THAT(Refusal({"sts", "--pose", "5000"}), HasSubstr("0 to 4095"));
   EXPECT_THAT(Refusal({"sts", "--fault", "melt:0@1"}), HasSubstr("'melt:0@1'"));
