@@ -21,7 +21,7 @@ bool IsLater(const Fault& a, const Fault& b) { return a.at > b.at; }
 
 Bus::Bus(const BusOptions& options, std::size_t servos, double middle, double own_per_rad,
          bool half_duplex)
-    : line_(options.baud, half_duplex, options.faults.line, options.seed),
+    : line_(options.baud, half_duplex, options.echo, options.faults.line, options.seed),
       open_supply_V_(options.supply_V),
       supply_ohm_(options.supply_ohm),
       voltage_V_(options.supply_V),

@@ -21,6 +21,7 @@ struct BusOptions {
   // Positions at power-on by servo, in its own unit; those beyond the end start in the middle.
   std::vector<double> poses;
   double baud = 1'000'000;
+  bool echo = false;  // the host's adapter gives it its own bytes back, as simple ones do
   double supply_V = 5;
   double supply_ohm = 0.05;  // of the wires and the supply that all servos share
   FaultPlan faults;

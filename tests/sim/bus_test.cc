@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 #include "tests/sim/bench.h"
@@ -72,6 +74,14 @@ TEST_F(ChainOnBench, AnswersLate) {
   EXPECT_THAT(bench.Ask(kPing, Duration(200)), IsEmpty());
   bench.Wait(milliseconds(21));
   EXPECT_EQ(Plain(bench.bus.Transmit()), kPong);
+}
+
+TEST_F(ChainOnBench, GivesTheHostItsOwnBytesBackBehindASimpleAdapter) {
+  FeetechOptions options = Chain(1);
+  options.echo = true;
+  Bench<Feetech> echoing(options);
+  EXPECT_EQ(echoing.Ask(kPing), kPing + kPong);
+  EXPECT_EQ(echoing.Count(EventKind::kCollision), 0U);
 }
 
 TEST_F(ChainOnBench, HearsNoiseWhenNobodyTalks) {
@@ -235,6 +245,43 @@ TEST(AnyBytes, NeverDoHarm) {
     xl.Ask(bytes, milliseconds(5));
     maestro.Ask(bytes, milliseconds(5));
   }
+}
+
+// Ten minutes of everything that can go wrong, while the host goes on as if nothing were.
+template <class SomeBus, class Options>
+void Suffer(Options options, const std::vector<Bytes>& goals) {
+  options.faults.line = {
+      .lose = 1e-3, .flip = 1e-3, .duplicate = 1e-3, .late = 0.02, .noise_per_s = 5};
+  options.loads.assign(2, {.gravity_Nm = 0.05});
+  Bench<SomeBus> bench(options);
+  const auto total = std::chrono::minutes(10);
+  const double low = bench.bus.ToOwn(-60 * kDegree);
+  const double high = bench.bus.ToOwn(60 * kDegree);
+  for (const Fault& f : RandomFaults(5, bench.bus.servos(), total, 30, low, high)) {
+    bench.bus.Inject(f);
+  }
+  bench.bus.trace().OnSample([&](const Sample& s) {
+    ASSERT_TRUE(std::isfinite(s.position) && std::isfinite(s.speed));
+    ASSERT_LT(std::abs(s.current_A), 10);
+    ASSERT_GE(s.temperature_C, 20);
+    ASSERT_LT(s.temperature_C, 150);
+    ASSERT_LT(s.voltage_V, options.supply_V + 0.01);
+  });
+  for (int i = 0; i < 6000; ++i) {
+    bench.Ask(goals[static_cast<std::size_t>(i / 20) % goals.size()], milliseconds(100));
+  }
+  EXPECT_GT(bench.Count(EventKind::kFault), 200U);
+  EXPECT_GE(bench.Count(EventKind::kFault), bench.Count(EventKind::kFaultEnds));
+}
+
+TEST(EveryFault, LeavesTheNumbersSane) {
+  Suffer<Feetech>(Chain(2), {kGoal3000, Hex("FF FF 01 09 03 2A E8 03 00 00 00 00 DD"), kPing});
+  DynamixelOptions chain;
+  chain.ids = {1, 2};
+  Suffer<Dynamixel>(chain, {Hex("FF FF FD 00 01 03 00 01 19 4E"),
+                            Hex("FF FF FD 00 FE 11 00 83 74 00 04 00 01 96 00 00 00 02 AA 00 00 00 "
+                                "82 87")});
+  Suffer<Maestro>(MaestroOptions{}, {Hex("84 00 70 2E"), Hex("84 01 00 40"), Hex("A1")});
 }
 
 // An hour of a face: twelve servos get a goal a hundred times a second and are all read ten times a

@@ -37,6 +37,7 @@ void Line::FromHost(std::span<const std::byte> bytes, Nanos now) {
     Byte byte{start, start + byte_ns_, std::to_integer<std::uint8_t>(b)};
     if (half_duplex_) Collide(to_host_, byte);
     Put(to_servos_, byte);
+    if (echo_) Put(to_host_, byte);
     start = byte.end;
   }
   host_free_ = start;

@@ -26,9 +26,11 @@ class Line {
     std::uint8_t value;
   };
 
-  Line(double baud, bool half_duplex, const LineFaults& faults, std::uint64_t seed)
+  // With `echo` the host's adapter gives it its own bytes back, too.
+  Line(double baud, bool half_duplex, bool echo, const LineFaults& faults, std::uint64_t seed)
       : byte_ns_(static_cast<Nanos>(10e9 / baud)),
         half_duplex_(half_duplex),
+        echo_(echo),
         faults_(faults),
         random_(seed) {}
 
@@ -59,6 +61,7 @@ class Line {
 
   Nanos byte_ns_;
   bool half_duplex_;
+  bool echo_;
   LineFaults faults_;
   Random random_;
   std::deque<Byte> to_servos_, to_host_;

@@ -28,6 +28,7 @@ struct Given {
   std::vector<std::string> faults;
   std::uint64_t seed = 1;
   bool crc = false;
+  bool echo = false;
   bool strict_baud = false;
   int timeout_ms = 0;
   int device = 12;
@@ -48,6 +49,7 @@ void Declare(CLI::App& app, Given& given) {
   app.add_option(
       "--baud", given.baud,
       "of the line (default 1000000 on chains; on a Maestro's USB port it does not matter)");
+  app.add_flag("--echo", given.echo, "the host gets its own bytes back, too");
   app.add_flag("--strict-baud", given.strict_baud,
                "a chain hears only a host that has set its baud rate on the line");
   app.add_option("--pose", given.pose,
@@ -103,6 +105,7 @@ void Fill(const Given& given, std::size_t servos, double low, double high, BusOp
   if (given.baud != 0) options.baud = given.baud;
   if (given.supply_V != 0) options.supply_V = given.supply_V;
   options.supply_ohm = given.supply_ohm;
+  options.echo = given.echo;
   options.seed = given.seed;
   const double middle = (low + high) / 2;
   Random random(given.seed);
