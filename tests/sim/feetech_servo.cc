@@ -91,6 +91,7 @@ void FeetechServo::FactoryReset() {
   SetByte(feetech::kMaxVoltage, series_->magnetic ? 80 : 84);
   SetByte(feetech::kMinVoltage, 40);
   SetWord(feetech::kMaxTorque, 1000);
+  SetByte(feetech::kPhase, 12);
   SetByte(feetech::kUnload, series_->magnetic ? 44 : 37);
   SetByte(feetech::kForwardDeadBand, 1);
   SetByte(feetech::kForwardDeadBand + 1, 1);
@@ -261,16 +262,27 @@ void FeetechServo::Millisecond(double supply_V) {
       (series_->magnetic ? Word(feetech::kTorqueLimit) : Word(feetech::kMaxTorque)) / 1000.0;
   if (overloaded_) limit = std::min(limit, Byte(series_->protective_torque) / 100.0);
   motor_->LimitDuty(std::min(1.0, limit));
-  double speed = Word(feetech::kSpeed) / 1000.0;
-  if (!series_->magnetic && speed == 0 && Word(feetech::kTime) > 0 && !path_.At(goal_)) {
+  FollowPath();
+  motor_->GoTo(ToRad(path_.position));
+}
+
+double FeetechServo::SpeedUnit() const {
+  return series_->magnetic && !HasPhase(feetech::kFineSpeedBit) ? 50 : 1;
+}
+
+void FeetechServo::FollowPath() {
+  double speed = Word(feetech::kSpeed) * SpeedUnit() / 1000.0;
+  const int time_ms = series_->magnetic ? 0 : Word(feetech::kTime);
+  if (speed == 0 && time_ms > 0 && !path_.At(goal_)) {
     // The way takes this long, from where it was when the goal came.
-    speed = std::max(path_.speed < 0 ? -path_.speed : path_.speed,
-                     std::abs(goal_ - path_.position) / Word(feetech::kTime));
+    speed = std::max(std::abs(path_.speed), std::abs(goal_ - path_.position) / time_ms);
+  } else if (speed == 0 && !HasPhase(feetech::kZeroIsFastBit)) {
+    path_.Jump(path_.position);
+    return;
   }
   const double acceleration =
       series_->magnetic ? Byte(feetech::kAcceleration) * kAccelerationUnit / 1e6 : 0;
   path_.Step(goal_, speed, acceleration);
-  motor_->GoTo(ToRad(path_.position));
 }
 
 void FeetechServo::Measure(double supply_V) {
@@ -280,7 +292,7 @@ void FeetechServo::Measure(double supply_V) {
   SetWord(feetech::kPosition, series_->magnetic
                                   ? Raw(position, kSign15)
                                   : static_cast<int>(std::clamp(position, 0.0, 1023.0)));
-  SetWord(feetech::kPresentSpeed, Raw(speed, kSign15));
+  SetWord(feetech::kPresentSpeed, Raw(speed / SpeedUnit(), kSign15));
   SetWord(feetech::kLoad, Raw(motor_->duty() * 1000, kSign10));
   SetByte(feetech::kVoltage, static_cast<int>(std::lround(supply_V * 10)));
   SetByte(feetech::kTemperature, static_cast<int>(std::lround(motor_->temperature_C())));

@@ -18,8 +18,8 @@ namespace facewire::sim {
 namespace feetech {
 constexpr std::uint8_t kEndian = 2, kModel = 3, kId = 5, kBaudRate = 6, kReturnDelay = 7,
                        kResponseLevel = 8, kMinAngle = 9, kMaxAngle = 11, kMaxTemperature = 13,
-                       kMaxVoltage = 14, kMinVoltage = 15, kMaxTorque = 16, kUnload = 19,
-                       kForwardDeadBand = 26, kProtectionCurrent = 28, kOffset = 31,
+                       kMaxVoltage = 14, kMinVoltage = 15, kMaxTorque = 16, kPhase = 18,
+                       kUnload = 19, kForwardDeadBand = 26, kProtectionCurrent = 28, kOffset = 31,
                        kOvercurrentTime = 38, kTorque = 40, kAcceleration = 41, kGoal = 42,
                        kTime = 44, kSpeed = 46, kTorqueLimit = 48, kPosition = 56,
                        kPresentSpeed = 58, kLoad = 60, kVoltage = 62, kTemperature = 63,
@@ -27,6 +27,9 @@ constexpr std::uint8_t kEndian = 2, kModel = 3, kId = 5, kBaudRate = 6, kReturnD
 constexpr std::uint8_t kFirstOfEeprom = 5, kFirstOfRam = 40;
 // Bits of the status, of Unload and of the error byte of a reply.
 constexpr unsigned kVoltageBit = 0, kHeatBit = 2, kCurrentBit = 3, kLoadBit = 5;
+// Bits of Phase: the unit of speeds (1: count/s, 0: 50 counts/s; STS only), and what speed 0 means
+// (1: as fast as it can, 0: stop).
+constexpr unsigned kFineSpeedBit = 2, kZeroIsFastBit = 3;
 }  // namespace feetech
 
 // Where the two series differ.
@@ -82,6 +85,9 @@ class FeetechServo {
   void Measure(double supply_V);
   double ToCounts(double rad) const;
   double ToRad(double counts) const;
+  bool HasPhase(unsigned bit) const { return (memory_[feetech::kPhase] >> bit & 1) != 0; }
+  double SpeedUnit() const;  // counts/s
+  void FollowPath();
   bool Unloads(unsigned bit) const { return (memory_[feetech::kUnload] >> bit & 1) != 0; }
 
   const FeetechSeries* series_;

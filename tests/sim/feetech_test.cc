@@ -192,6 +192,21 @@ TEST_F(StsOnBench, TurnsAsFastAsItIsTold) {
   EXPECT_NEAR(std::chrono::duration<double>(time).count(), 2.0, 0.1);
 }
 
+TEST_F(StsOnBench, CountsItsSpeedInFiftiesWhenItsPhaseSaysSo) {
+  bench.bus.memory(0).SetByte(feetech::kPhase, 8);
+  bench.Send(Goal(1, 3048, 10));
+  const Duration time = bench.TimeTo(0, 2548);
+  EXPECT_NEAR(std::chrono::duration<double>(time).count(), 1.0, 0.1);
+  EXPECT_NEAR(ReadLittle(1, feetech::kPresentSpeed), 10, 1);
+}
+
+TEST_F(StsOnBench, StopsAtSpeedZeroWhenItsPhaseSaysSo) {
+  bench.bus.memory(0).SetByte(feetech::kPhase, 4);
+  bench.Ask(Goal(1, 3048, 0));
+  bench.Wait(seconds(2));
+  EXPECT_NEAR(bench.bus.Position(0), 2048, 2);
+}
+
 TEST_F(StsOnBench, ASwitchedOffServoIsSwitchedOnByAGoal) {
   bench.Ask(WritePacket(1, 40, {0}));
   EXPECT_FALSE(bench.bus.TorqueOn(0));
