@@ -9,6 +9,7 @@ namespace {
 constexpr std::array<double, 8> kRates = {1'000'000, 500'000, 250'000, 128'000,
                                           115'200,   76'800,  57'600,  38'400};
 constexpr unsigned kSign15 = 0x8000;
+constexpr unsigned kSign11 = 0x0800;  // of the offset
 constexpr unsigned kSign10 = 0x0400;
 constexpr double kCurrentUnit = 0.0065;
 constexpr double kAccelerationUnit = 100;  // counts per second and second
@@ -119,12 +120,12 @@ void FeetechServo::Start() {
 }
 
 double FeetechServo::ToCounts(double rad) const {
-  const int offset = series_->magnetic ? Signed(Word(feetech::kOffset), kSign15) : 0;
+  const int offset = series_->magnetic ? Signed(Word(feetech::kOffset), kSign11) : 0;
   return series_->counts / 2.0 + rad * series_->counts / series_->turn_rad - offset;
 }
 
 double FeetechServo::ToRad(double counts) const {
-  const int offset = series_->magnetic ? Signed(Word(feetech::kOffset), kSign15) : 0;
+  const int offset = series_->magnetic ? Signed(Word(feetech::kOffset), kSign11) : 0;
   return (counts + offset - series_->counts / 2.0) * series_->turn_rad / series_->counts;
 }
 
@@ -190,7 +191,7 @@ void FeetechServo::SetTorque(int value) {
 // The position it is at becomes the middle, for good.
 void FeetechServo::CentreHere() {
   SetWord(feetech::kOffset, 0);
-  SetWord(feetech::kOffset, Raw(ToCounts(motor_->sensed_rad()) - series_->counts / 2.0, kSign15));
+  SetWord(feetech::kOffset, Raw(ToCounts(motor_->sensed_rad()) - series_->counts / 2.0, kSign11));
   std::copy_n(memory_.begin() + feetech::kOffset, 2, permanent_.begin() + feetech::kOffset);
   report_(EventKind::kEepromWrite, feetech::kOffset);
   path_.Jump(ToCounts(motor_->sensed_rad()));

@@ -241,6 +241,11 @@ TEST_F(StsOnBench, MakesItsPlaceTheMiddleOnCommand) {
   EXPECT_GE(bench.bus.trace().Count(EventKind::kEepromWrite, 0), 1U);
 }
 
+TEST_F(StsOnBench, HasItsOffsetsSignInBitEleven) {
+  bench.bus.memory(0).SetWord(feetech::kOffset, 0x0800 + 100);
+  EXPECT_NEAR(ReadLittle(1, feetech::kPosition), 2148, 2);
+}
+
 TEST_F(StsOnBench, HasNoWatchdog) {
   bench.Ask(Goal(1, 2500));
   bench.Wait(std::chrono::minutes(2));
