@@ -117,6 +117,11 @@ void Bus::Record() {
       Happened(EventKind::kBrownOut, static_cast<int>(i), static_cast<int>(voltage_V_ * 10));
       StartAnew(i, kBrownOutTakes);
     }
+    if (model.driven() != condition.driven) {
+      condition.driven = model.driven();
+      Happened(condition.driven ? EventKind::kTorqueOn : EventKind::kTorqueOff, static_cast<int>(i),
+               0);
+    }
     trace_.Add(Sample{.at = now_,
                       .servo = static_cast<int>(i),
                       .torque_on = model.driven(),

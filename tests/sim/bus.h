@@ -91,6 +91,7 @@ class Bus {
     bool powered = true;
     bool mute = false;
     bool burnt = false;
+    bool driven = false;
     Time starts{};  // while in the future, the servo is starting
     bool starting = false;
   };

@@ -125,6 +125,7 @@ TEST_F(ChainOnBench, ABrownOutSwitchesTheTorqueOff) {
   bench.Wait(seconds(2));
   EXPECT_FALSE(bench.bus.TorqueOn(0));
   EXPECT_LT(bench.bus.Position(0), 2800);  // it coasted
+  EXPECT_EQ(bench.bus.trace().Count(EventKind::kTorqueOff, 0), 1U);
   EXPECT_EQ(bench.bus.trace().Count(EventKind::kBrownOut, 0), 1U);
 }
 

@@ -145,7 +145,6 @@ void DynamixelServo::SetTorque(bool on) {
   if (on && (errors & static_cast<unsigned>(table_.Get(dynamixel::kShutdown))) != 0) return;
   if (on == torque()) return;
   table_.Set(dynamixel::kTorqueEnable, on ? 1 : 0);
-  report_(on ? EventKind::kTorqueOn : EventKind::kTorqueOff, 0);
   if (!on) {
     motor_->Release();
     return;

@@ -174,17 +174,14 @@ void FeetechServo::SetTorque(int value) {
     CentreHere();
     value = 1;
   }
-  const bool was = motor_->driven();
   SetByte(feetech::kTorque, value);
   if (value != 1) {
     motor_->Release();
-    if (value == 2) motor_->Push(0);  // damping: the motor's ends are tied together
-    if (was) report_(EventKind::kTorqueOff, 0);
-  } else if (!was) {
+    if (value == 2) motor_->Brake();
+  } else if (!motor_->driven()) {
     path_.Jump(ToCounts(motor_->sensed_rad()));
     goal_ = path_.position;
     motor_->GoTo(ToRad(goal_));
-    report_(EventKind::kTorqueOn, 0);
   }
 }
 

@@ -50,6 +50,7 @@ void ServoModel::Push(double duty) {
 }
 
 double ServoModel::WantedDuty() const {
+  if (drive_ == Drive::kBrake) return 0;
   if (drive_ == Drive::kDuty) return goal_;
   if (drive_ == Drive::kSpeed) {
     // The duty that the speed needs, and a tenth of the voltage for every tenth of error.
@@ -109,7 +110,7 @@ void ServoModel::Sense() {
 }
 
 void ServoModel::Step(double supply_V) {
-  if (driven()) {
+  if (drive_ != Drive::kFree && !burnt_) {
     duty_ = std::clamp(WantedDuty(), -duty_limit_, duty_limit_);
     current_A_ = std::clamp((duty_ * supply_V - speed_constant_ * speed_radps_) / resistance_ohm_,
                             -current_limit_A_, current_limit_A_);

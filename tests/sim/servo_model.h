@@ -22,6 +22,7 @@ class ServoModel {
 
   // What its electronics do with the motor, until told otherwise.
   void Release() { drive_ = Drive::kFree; }
+  void Brake() { drive_ = Drive::kBrake; }  // the motor's ends tied together
   void GoTo(double goal_rad);
   void Turn(double speed_radps);
   void Push(double duty);                              // -1..1 of the voltage
@@ -40,7 +41,7 @@ class ServoModel {
   double duty() const { return duty_; }
   double temperature_C() const { return temperature_C_; }
   double supply_current_A() const;
-  bool driven() const { return drive_ != Drive::kFree && !burnt_; }
+  bool driven() const { return drive_ > Drive::kBrake && !burnt_; }
   bool burnt() const { return burnt_; }
 
   // Faults.
@@ -51,7 +52,7 @@ class ServoModel {
   void SetSensorError(double error_rad) { sensor_error_rad_ = error_rad; }
 
  private:
-  enum class Drive { kFree, kPosition, kSpeed, kDuty };
+  enum class Drive { kFree, kBrake, kPosition, kSpeed, kDuty };
 
   double WantedDuty() const;
   double LoadTorque() const;

@@ -112,6 +112,18 @@ TEST(ServoModel, FallsWhenItIsReleased) {
   EXPECT_EQ(servo.current_A(), 0);
 }
 
+TEST(ServoModel, FallsSlowerWhenItBrakes) {
+  const ServoLoad arm{.gravity_Nm = 0.2};
+  ServoModel falls(Xl330M288(), arm, kLevel, 1);
+  ServoModel brakes(Xl330M288(), arm, kLevel, 1);
+  brakes.Brake();
+  RunFor(falls, 0.1, 5);
+  RunFor(brakes, 0.1, 5);
+  EXPECT_LT(falls.position_rad(), brakes.position_rad());
+  EXPECT_LT(brakes.position_rad(), kLevel);
+  EXPECT_FALSE(brakes.driven());
+}
+
 TEST(ServoModel, StaysWhereItIsReleasedWhenItsGearsHoldTheLoad) {
   const ServoLoad light{.gravity_Nm = 0.01};
   ServoModel servo(Xl330M288(), light, kLevel, 1);

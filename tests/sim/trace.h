@@ -18,7 +18,7 @@ enum class EventKind : std::uint8_t {
   kEepromTry,      // address; written while locked: refused, or lost when the power goes
   kFactoryReset,   // option
   kReboot,         // 0
-  kTorqueOn,       // 0
+  kTorqueOn,       // 0; the motor is driven, or no longer: whatever the cause, on every bus
   kTorqueOff,      // 0
   kError,          // error bits: Maestro's register, Dynamixel's hardware status, Feetech's status
   kOverload,       // 0
