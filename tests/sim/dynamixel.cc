@@ -93,9 +93,9 @@ Dynamixel::Dynamixel(const DynamixelOptions& options)
       baud_(options.baud) {
   chain_.reserve(options.ids.size());
   for (std::size_t i = 0; i < options.ids.size(); ++i) {
-    chain_.emplace_back(*options.model, Bus::servo(i), [this, i](EventKind kind, int detail) {
-      Happened(kind, static_cast<int>(i), detail);
-    });
+    chain_.emplace_back(
+        *options.model, options.holds_at_torque_on, Bus::servo(i),
+        [this, i](EventKind kind, int detail) { Happened(kind, static_cast<int>(i), detail); });
     DynamixelTable& table = chain_[i].table();
     table.Set(dynamixel::kId, options.ids[i]);
     for (std::int32_t rate = 0; rate < 8 && chain_[i].baud() != baud_; ++rate) {

@@ -15,6 +15,9 @@ struct DynamixelOptions : BusOptions {
   explicit DynamixelOptions(const DynamixelModel& servo_model = Xl330());
 
   const DynamixelModel* model;
+  // Whether torque on makes the present position the goal. The manuals do not say; without it a
+  // goal from before is the harder case for a host.
+  bool holds_at_torque_on = false;
   std::vector<std::uint8_t> ids = {1};
 };
 

@@ -71,6 +71,7 @@ void DynamixelServo::Start() {
   tick_ms_ = 0;
   motor_->Release();
   Measure(0);
+  table_.Set(dynamixel::kGoalPosition, table_.Get(dynamixel::kPresentPosition));
 }
 
 std::uint8_t DynamixelServo::Status(Code code) const {
@@ -149,12 +150,12 @@ void DynamixelServo::SetTorque(bool on) {
     motor_->Release();
     return;
   }
-  // It holds where it is until it gets a goal.
   const double here = std::round(ToCounts(motor_->sensed_rad()));
   trajectory_.Jump(here);
-  table_.Set(dynamixel::kGoalPosition, static_cast<std::int32_t>(here));
-  speed_goal_ = 0;
-  table_.Set(dynamixel::kGoalVelocity, 0);
+  if (holds_) {
+    table_.Set(dynamixel::kGoalPosition, static_cast<std::int32_t>(here));
+    table_.Set(dynamixel::kGoalVelocity, 0);
+  }
   silence_ms_ = 0;
 }
 

@@ -20,8 +20,10 @@ class DynamixelServo {
  public:
   using Report = std::function<void(EventKind, int detail)>;
 
-  DynamixelServo(const DynamixelModel& model, ServoModel& motor, Report report)
-      : model_(&model), motor_(&motor), table_(model), report_(std::move(report)) {}
+  // With `holds`, torque on makes the present position the goal; otherwise it goes to the goal that
+  // is in its table.
+  DynamixelServo(const DynamixelModel& model, bool holds, ServoModel& motor, Report report)
+      : model_(&model), holds_(holds), motor_(&motor), table_(model), report_(std::move(report)) {}
 
   const DynamixelTable& table() const { return table_; }
   DynamixelTable& table() { return table_; }
@@ -62,6 +64,7 @@ class DynamixelServo {
   bool PositionMode() const;
 
   const DynamixelModel* model_;
+  bool holds_;
   ServoModel* motor_;
   DynamixelTable table_;
   Report report_;

@@ -241,12 +241,29 @@ TEST_F(DynamixelOnBench, ForgetsHalfAPacketAfterAPause) {
   EXPECT_EQ(bench.Ask(Packet(1, 0x01, {})).size(), 14U);
 }
 
-TEST_F(DynamixelOnBench, HoldsItsPlaceWhenTheTorqueComesOn) {
-  bench.bus.SetEntry(0, dynamixel::kGoalPosition, 1000);
+TEST_F(DynamixelOnBench, GoesToAnOldGoalWhenTheTorqueComesOn) {
+  EXPECT_EQ(Write(1, 116, 1000, 4), 0);
+  EXPECT_NEAR(bench.bus.Position(0), 2048, 4);
+  TorqueOn();
+  bench.Wait(seconds(1));
+  EXPECT_NEAR(bench.bus.Position(0), 1000, 4);
+}
+
+TEST_F(DynamixelOnBench, HoldsItsPlaceWhenTheTorqueComesOnBeforeAnyGoal) {
   TorqueOn();
   bench.Wait(seconds(1));
   EXPECT_NEAR(bench.bus.Position(0), 2048, 4);
-  EXPECT_NEAR(Entry(dynamixel::kGoalPosition), 2048, 2);
+}
+
+TEST(DynamixelThatHolds, ForgetsAnOldGoalWhenTheTorqueComesOn) {
+  DynamixelOptions options = Chain({1});
+  options.holds_at_torque_on = true;
+  Bench<Dynamixel> bench(options);
+  bench.Ask(WritePacket(1, 116, 1000, 4));
+  bench.Ask(WritePacket(1, 64, 1, 1));
+  bench.Wait(seconds(1));
+  EXPECT_NEAR(bench.bus.Position(0), 2048, 4);
+  EXPECT_NEAR(bench.bus.Goal(0), 2048, 2);
 }
 
 TEST_F(DynamixelOnBench, GoesToItsGoalWithItsProfile) {
