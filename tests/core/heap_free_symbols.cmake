@@ -10,8 +10,8 @@ foreach(archive ${ARCHIVES})
   endif()
   string(REPLACE "\n" ";" lines "${symbols}")
   foreach(line ${lines})
-    # Deleting destructors of classes with virtual functions refer to operator delete without calling
-    # it; core has no virtual functions, so there is no exception to the rule.
+    # Deleting destructors of classes with virtual destructors refer to operator delete without
+    # calling it; core's interfaces have no such destructors, so there is no exception to the rule.
     if(line MATCHES "${forbidden}")
       string(APPEND bad "  ${line}\n")
     endif()
