@@ -47,10 +47,8 @@ std::optional<Part> FlawOf(const Servo& s) noexcept {
   if (s.bus.empty()) return Part::kAddress;
   if (!s.sources.empty() && !IsMap(s)) return Part::kMap;
   if (!IsRange(s)) return Part::kRange;
-  if (!IsWithin(std::max(s.dead_band, s.backlash), 0, s.max - s.min) ||
-      !IsWithin(std::min(s.dead_band, s.backlash), 0, s.max - s.min)) {
-    return Part::kBand;
-  }
+  const float range = s.max - s.min;
+  if (!IsWithin(s.dead_band, 0, range) || !IsWithin(s.backlash, 0, range)) return Part::kBand;
   if (!IsMotion(s)) return Part::kMotion;
   return std::nullopt;
 }
