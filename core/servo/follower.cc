@@ -26,7 +26,7 @@ void Follower::Take(double wish, Duration now, Duration interval) noexcept {
   const double left = wish - calm_;
   double part = 1;  // of the distance, by which the calm value moves
   if (tremble_ > 0) {
-    const double kept = tremble_ * tremble_ / (left * left + tremble_ * tremble_);
+    const double kept = 1 / (1 + std::pow(left / tremble_, 4));
     part -= std::pow(std::min(kept, 1 - kCreep), 30 * double{Seconds(time)});
   }
   calm_ += part * left;
@@ -51,7 +51,8 @@ double Follower::GoalAt(Duration now) const noexcept {
   };
   const Duration t = now - began_;
   if (t < duration_) return mix(from_, to_, t);
-  if (t < 2 * duration_) return mix(to_, accepted_, t - duration_);
+  if (t < 2 * duration_) return to_;  // the next wish is a little late
+  if (t < 3 * duration_) return mix(to_, accepted_, t - 2 * duration_);
   return accepted_;
 }
 

@@ -11,15 +11,15 @@ namespace facewire::servo {
 // Makes of one servo's wishes, which come at the camera's rate, a goal for any time in between.
 //
 // 1. Calm: a wish at the distance d from the calm value draws it nearer by the part
-//        d^2 / (d^2 + h^2)   a 30th of a second,   h = calm * band, band = the larger of dead band,
-//    backlash and step, as retarget::Steady. Motion passes, trembling is averaged; kCreep takes the
-//    last bit home.
+//        d^4 / (d^4 + h^4)   a 30th of a second,   h = calm * band, band = the larger of dead band,
+//    backlash and step: as retarget::Steady, but steeper, because a single stray wish must not
+//    leave the band. Motion passes, trembling is averaged; kCreep takes the last bit home.
 // 2. Dead band: the goal stays where it is until the calm value has left it by more than the dead
 //    band, or, against the direction of its last move, by more than the backlash if that is larger.
 //    Then it goes all the way. So what stands still is off by less than the servo shows, for ever.
 // 3. Straight line: from where the goal is to the new value, in the time that the camera took from
-//    frame to frame. With a lead the line aims at where the motion will be so much later, and goes
-//    back to the last value when no other comes.
+//    frame to frame. With a lead the line aims at where the motion will be so much later, and when
+//    two frames have not come goes back to the last value.
 // The lag behind a wish that moves steadily is therefore one interval of the camera less the lead.
 class Follower {
  public:

@@ -83,7 +83,7 @@ struct Contract {
 struct Following {
   // How strongly what trembles is averaged, in bands of the servo (the larger of dead band and
   // backlash): 0 = not at all.
-  float calm = 3;
+  float calm = 5;
   // Motion is carried on for so long ahead of its last wish: 0 = none, the wish is reached when the
   // next one is due.
   Duration lead{};

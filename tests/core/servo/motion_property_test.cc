@@ -36,7 +36,7 @@ class Hour {
  public:
   explicit Hour(unsigned seed) : random_(seed), dt_s_(1 / Between(50, 200)) {
     for (std::size_t i = 0; i < kServos; ++i) AddServo(i);
-    AddRule(0, 1, Relation::kAtLeast, 1, -150);  // upper lid over eye
+    AddRule(0, 1, Relation::kAtLeast, 1, -150);   // upper lid over eye
     AddRule(2, 1, Relation::kAtMost, 0.7F, 600);  // lower lid under eye
     AddRule(0, 2, Relation::kAtLeast, 1, -100);   // lids over each other
     rig_.following.calm = static_cast<float>(Between(0, 5));
@@ -110,14 +110,16 @@ class Hour {
     dropout_s_ -= dt_s_;
     frame_s_ -= dt_s_;
     if (dropout_s_ <= 0 && frame_s_ <= 0) SendWishes();
-    if (Chance(dt_s_ / 5)) by_hand_ = Chance(0.3) ? std::optional(random_() % (kServos + 1)) : std::nullopt;
+    if (Chance(dt_s_ / 5))
+      by_hand_ = Chance(0.3) ? std::optional(random_() % (kServos + 1)) : std::nullopt;
     if (by_hand_ && Chance(0.5)) {
       const float position = AnyPosition();
       motion_->SetManual(*by_hand_, position, now_);
       if (*by_hand_ < kServos && !std::isnan(position)) silent_ = Duration::zero();
     }
     if (Chance(dt_s_ / 5)) {
-      motion_->SetHealth(random_() % kServos, Chance(0.3) ? 0 : static_cast<float>(Between(-0.2, 1.5)));
+      motion_->SetHealth(random_() % kServos,
+                         Chance(0.3) ? 0 : static_cast<float>(Between(-0.2, 1.5)));
     }
     for (std::size_t i = 1; i < kServos; i += 2) {
       if (Chance(0.2)) motion_->SetReading(i, static_cast<float>(watches_[i].before), now_);
@@ -190,11 +192,12 @@ class Hour {
     watch.change = change;
   }
 
-  // Between two ticks of the same length; a stop, a leap of time and the loss of torque end a motion
-  // as they find it.
+  // Between two ticks of the same length; a stop, a leap of time and the loss of torque end a
+  // motion as they find it.
   void CheckAcceleration(const Servo& servo, double step, double change, const Watch& watch,
                          bool torque) const {
-    if (servo.max_acceleration_per_s2 == 0 || motion_->stopped() || !torque || !watch.torque) return;
+    if (servo.max_acceleration_per_s2 == 0 || motion_->stopped() || !torque || !watch.torque)
+      return;
     if (std::abs(passed_s_ - passed_before_s_) > 1e-9 || passed_s_ == 0) return;
     ASSERT_LE(std::abs(change - watch.change),
               servo.max_acceleration_per_s2 * passed_s_ * passed_s_ * (1 + 1e-6) + 2 * step);
