@@ -10,7 +10,6 @@
 #include "core/base/inline_vector.h"
 #include "core/base/result.h"
 #include "core/base/time.h"
-#include "core/rig/response.h"
 #include "core/rig/rig.h"
 #include "core/rig_pose.h"
 #include "core/servo/servo_rig.h"
@@ -39,19 +38,8 @@ class Mapper {
   Wishes Map(const RigPose& pose) const noexcept;
 
  private:
-  struct Term {
-    std::size_t channel = 0;
-    double gain = 1;
-  };
-  struct Servo {
-    InlineVector<Term, kMaxDrives> terms;
-    double offset = 0;
-    double direction = 1;  // a falling map is kept as a rising one of the negative positions
-    Response rising;
-    float min = 0;
-    float max = 0;
-  };
   InlineVector<Servo, kMaxServos> servos_;
+  std::array<std::array<std::size_t, kMaxDrives>, kMaxServos> channels_{};  // of their sources
 };
 
 }  // namespace facewire::servo

@@ -64,6 +64,18 @@ bool IsLinkage(const Linkage& linkage, const ServoRig& rig) noexcept {
 
 }  // namespace
 
+double Servo::PositionOf(double sum) const noexcept {
+  // Curves only rise: a falling one is a rising one of the negative positions.
+  Response response;
+  response.curve = map;
+  const bool falls = !map.empty() && map[map.size() - 1].out < map[0].out;
+  if (falls) {
+    for (CurvePoint& point : response.curve) point.out = -point.out;
+  }
+  const double position = Respond(response, offset + sum);
+  return falls ? -position : position;
+}
+
 std::optional<std::size_t> ServoRig::Find(std::string_view servo) const noexcept {
   for (std::size_t i = 0; i < servos.size(); ++i) {
     if (servos[i].name.view() == servo) return i;

@@ -51,6 +51,9 @@ struct Servo {
   // a release. > 0, at most max_speed_per_s; the acceleration is less by the same factor.
   float crawl_speed_per_s = 0;
   Duration limp_after{};  // torque off when it has not had to move for so long; 0 = never
+
+  // map(offset + sum), not limited to min to max; falls or rises with the sum. NaN gives NaN.
+  double PositionOf(double sum) const noexcept;
 };
 
 enum class Relation : std::uint8_t { kAtLeast, kAtMost };
