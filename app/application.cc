@@ -14,6 +14,7 @@
 #include "app/networks.h"
 #include "app/neutral_file.h"
 #include "app/rig_file.h"
+#include "app/servo_rig_file.h"
 #include "app/status_report.h"
 #include "core/wire/rig_description.h"
 #include "hal/fake/fake_camera.h"
@@ -174,6 +175,7 @@ void Application::BuildCharacter(const Config& config, std::optional<Character>&
   const std::vector<std::string> own = SignalNames(personal_);
   signals.insert(signals.end(), own.begin(), own.end());
   const Rig rig = LoadRig(config.character.rig, &signals);
+  (void)LoadServoRig(config.character.rig, rig);  // its mistakes are the character's
   character.emplace();
   character->rig = rig;
   character->rig_id = wire::RigId(rig);
