@@ -156,7 +156,7 @@ void Application::Build() {
     if (have_profile && have_personal) {
       BuildCharacter(config_, characters_[running_], character_memory_[running_]);
     } else {
-      (void)LoadRig(config_.character.rig);
+      (void)LoadServoRig(config_.character.rig, LoadRig(config_.character.rig));
     }
   });
   retarget::NeutralCaptureConfig capture;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <type_traits>
 
 #include "core/base/capacity.h"
 #include "core/base/inline_vector.h"
@@ -36,6 +37,7 @@ struct Commands {
   std::size_t count = 0;
   std::array<Command, kMaxServos> servos{};  // in the order of ServoRig::servos
 };
+static_assert(std::is_trivially_copyable_v<Commands>);
 
 // The output side: wishes come in when they come; a tick at the output's own steady rate gives what
 // every servo is told. Whatever comes in, a command

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include "tests/core/servo/generated_servos.h"
@@ -120,6 +121,33 @@ TEST_F(MotionTest, TheFirstMotionIsACrawlAndFasterAfterwards) {
   EXPECT_EQ(Neck().position, 2048);
   Run(milliseconds(400), 1500, 2900);
   EXPECT_GT(Neck().position, 2500);
+}
+
+TEST_F(MotionTest, FromAnyPoseAtPowerOnSpeedAndAccelerationStayWithinTheCrawl) {
+  const Servo& neck = rig_.servos[1];
+  const float part = neck.crawl_speed_per_s / neck.max_speed_per_s;
+  const float most = neck.max_acceleration_per_s2 * part * 0.01F * 0.01F + 2;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> anywhere(0, 4095);
+  for (int round = 0; round < 30; ++round) {
+    ASSERT_TRUE(Configure());
+    reading_ = anywhere(random);
+    const float start = std::clamp(std::round(reading_), neck.min, neck.max);
+    const float wish = anywhere(random);
+    const float end = std::clamp(wish, neck.min, neck.max);
+    Run(milliseconds(30), 1500, wish);
+    float before = start;
+    float change = 0;
+    while (std::abs(before - end) > 1) {
+      Run(milliseconds(10), 1500, wish);
+      const float now = Neck().position - before;
+      ASSERT_LE(std::abs(now), neck.crawl_speed_per_s * 0.01F);
+      ASSERT_LE(std::abs(now - change), most);
+      ASSERT_LE(std::abs(Neck().position - end), std::abs(start - end) + 1) << "the right way";
+      before = Neck().position;
+      change = now;
+    }
+  }
 }
 
 TEST_F(MotionTest, WhatCannotBeReadStartsFromNeutral) {
