@@ -6,6 +6,7 @@
 
 #include "app/error.h"
 #include "app/rig_file.h"
+#include "app/servo_rig_file.h"
 #include "core/wire/rig_description.h"
 
 namespace facewire::app {
@@ -51,7 +52,7 @@ void Cast::Load(const CharacterConfig& config, Arena& arena) {
     if (have_profiles) {
       Build(config, running_);
     } else {
-      (void)LoadRig(config.rig);
+      (void)LoadServoRig(config.rig, LoadRig(config.rig));
     }
   });
   if (!problems.empty()) throw BadInput(problems);
@@ -60,6 +61,7 @@ void Cast::Load(const CharacterConfig& config, Arena& arena) {
 void Cast::Build(const CharacterConfig& config, std::size_t which) {
   const std::vector<std::string> signals = SignalNames();
   const Rig rig = LoadRig(config.rig, &signals);
+  (void)LoadServoRig(config.rig, rig);  // its mistakes are the character's
   Character& character = characters_[which].emplace();
   character.rig = rig;
   character.rig_id = wire::RigId(rig);

@@ -79,13 +79,6 @@ constexpr NumberRange kRateRange{0, 1e9};
 // that runs to its end. A parameter has none: a blend shape driven to 1 must be at 1.
 constexpr float kBoneKnee = 0.1F;
 
-std::string Shown(float number) {
-  std::string text = std::to_string(number);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
-}
-
 class RigReader {
  public:
   explicit RigReader(const std::vector<std::string>* known_signals) : check_(known_signals) {
@@ -94,35 +87,22 @@ class RigReader {
   }
 
   Rig Read(TableReader& top) {
-    if (top.Require("name", "what the character is called")) ReadName(top, rig_.name);
+    if (top.Require("name", "what the character is called")) top.Name("name", rig_.name);
     top.EachTable("bone", [this](TableReader& bone) { ReadBone(bone); });
     top.EachTable("parameter", [this](TableReader& parameter) { ReadParameter(parameter); });
     if (rig_.channels.empty() && !top.Has("bone") && !top.Has("parameter")) {
       top.Require("parameter",
                   "a rig needs at least one [[bone]] with an axis, or one [[parameter]]");
     }
+    for (const std::string_view key : {"servos", "servo", "linkage"}) top.Leave(key);
     top.Finish();
     return rig_;
   }
 
  private:
-  static bool ReadName(TableReader& table, ShortName& name) {
-    std::string text;
-    table.Text("name", text);
-    const auto made = ShortName::From(text);
-    if (made) {
-      name = *made;
-    } else {
-      table.Problem("name", "\"" + text + "\" is no name; expected 1 to " +
-                                std::to_string(kMaxNameLength) +
-                                " printable ASCII characters without spaces");
-    }
-    return made.has_value();
-  }
-
   void ReadBone(TableReader& table) {
     Bone bone;
-    bool named = table.Require("name", "every bone has one") && ReadName(table, bone.name);
+    bool named = table.Require("name", "every bone has one") && table.Name("name", bone.name);
     if (named &&
         std::ranges::any_of(rig_.bones, [&](const Bone& b) { return b.name == bone.name; })) {
       table.Problem("name", "a second bone \"" + std::string(bone.name.view()) +
@@ -176,7 +156,7 @@ class RigReader {
   void ReadParameter(TableReader& table) {
     Channel channel;
     const bool named =
-        table.Require("name", "every parameter has one") && ReadName(table, channel.name);
+        table.Require("name", "every parameter has one") && table.Name("name", channel.name);
     if (named && !table.Has("drive"))
       AddDrive(table.Where("name"), table, channel.name.view(), 1, channel);
     ReadChannel(table, kParameterRange, channel);
@@ -191,10 +171,10 @@ class RigReader {
     table.Number("max_speed", channel.max_speed_per_s, kRateRange);
     table.Number("max_acceleration", channel.max_acceleration_per_s2, kRateRange);
     if (channel.min >= channel.max) {
-      table.Problem("min", Shown(channel.min) + " is not below max, " + Shown(channel.max));
+      table.Problem("min", Printed(channel.min) + " is not below max, " + Printed(channel.max));
     } else if (channel.neutral < channel.min || channel.neutral > channel.max) {
-      table.Problem("neutral", Shown(channel.neutral) + " is outside min to max, " +
-                                   Shown(channel.min) + " to " + Shown(channel.max));
+      table.Problem("neutral", Printed(channel.neutral) + " is outside min to max, " +
+                                   Printed(channel.min) + " to " + Printed(channel.max));
     }
     table.EachNumber("drive",
                      [&](std::string_view signal, double gain, const toml::source_region& where) {
@@ -213,8 +193,8 @@ class RigReader {
     const bool neutral_is_inside = channel.min <= channel.neutral && channel.neutral <= channel.max;
     if (usable && neutral_is_inside && (at_rest < channel.min || at_rest > channel.max)) {
       table.Problem(table.Has("bias") ? "bias" : "curve",
-                    "takes a neutral face to " + Shown(at_rest) + ", outside min to max, " +
-                        Shown(channel.min) + " to " + Shown(channel.max));
+                    "takes a neutral face to " + Printed(at_rest) + ", outside min to max, " +
+                        Printed(channel.min) + " to " + Printed(channel.max));
     }
   }
 
@@ -229,10 +209,10 @@ class RigReader {
           const CurvePoint* last =
               response.curve.empty() ? nullptr : &response.curve[response.curve.size() - 1];
           if (last != nullptr && in <= last->in) {
-            problem(where, "the point at " + Shown(in) + " comes after the one at " +
-                               Shown(last->in) + "; points go from left to right");
+            problem(where, "the point at " + Printed(in) + " comes after the one at " +
+                               Printed(last->in) + "; points go from left to right");
           } else if (last != nullptr && out < last->out) {
-            problem(where, "falls from " + Shown(last->out) + " to " + Shown(out) +
+            problem(where, "falls from " + Printed(last->out) + " to " + Printed(out) +
                                "; a curve only rises, a negative gain turns the channel around");
           } else if (!response.curve.try_push({in, out})) {
             problem(where, "too many points; the most is " + std::to_string(kMaxCurvePoints));
@@ -252,7 +232,7 @@ class RigReader {
                       "no signal \"" + std::string(signal) + "\" in the profile, nor of the head" +
                           Suggestion(signal, known_));
     } else if (gain < kGainRange.min || gain > kGainRange.max) {
-      table.ProblemAt(where, "drive", "a gain of " + Shown(gain) + " is out of range");
+      table.ProblemAt(where, "drive", "a gain of " + Printed(gain) + " is out of range");
     } else if (!channel.drives.try_push({*name, gain})) {
       table.ProblemAt(where, "drive",
                       "too many signals; the most is " + std::to_string(kMaxDrives));
@@ -270,21 +250,14 @@ class RigReader {
 
   // "lm33" is landmark 33 under the name that it has in marker files.
   static void ReadMarker(TableReader& table, Bone& bone) {
-    std::string text;
-    table.Text("marker", text);
+    ShortName name;
+    const bool named = table.Name("marker", name);
     if (table.Has("landmark")) {
       table.Problem("marker", "the bone has a landmark too; give it one of them");
-      return;
-    }
-    const auto name = ShortName::From(text);
-    if (!name) {
-      table.Problem("marker", "\"" + text + "\" is no name; expected 1 to " +
-                                  std::to_string(kMaxNameLength) +
-                                  " printable ASCII characters without spaces");
-    } else if (const auto landmark = LandmarkOf(text)) {
+    } else if (const auto landmark = LandmarkOf(name.view())) {
       bone.landmark = *landmark;
-    } else {
-      bone.marker = *name;
+    } else if (named) {
+      bone.marker = name;
     }
   }
 

@@ -15,12 +15,6 @@ std::string Place(const std::string& file, std::uint32_t line, std::uint32_t col
   return file + ":" + std::to_string(line) + ":" + std::to_string(column) + ": ";
 }
 
-std::string Printed(double number) {
-  std::ostringstream text;
-  text << number;
-  return text.str();
-}
-
 // Insertions, deletions and replacements between two words, letters of either case being equal.
 std::size_t EditDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -98,6 +92,12 @@ toml::table ParseTomlFile(const std::filesystem::path& file) {
   }
 }
 
+std::string Printed(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
 std::string Suggestion(std::string_view written, const std::vector<std::string>& candidates) {
   const std::string* nearest = nullptr;
   std::size_t nearest_distance = std::max<std::size_t>(1, written.size() / 3) + 1;
@@ -128,7 +128,7 @@ toml::source_region TableReader::Where(std::string_view key) const {
   return node == nullptr ? table_->source() : node->source();
 }
 
-std::string TableReader::Name(std::string_view key) const {
+std::string TableReader::Path(std::string_view key) const {
   return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
 }
 
@@ -142,11 +142,11 @@ void TableReader::Problem(std::string_view key, const std::string& what) {
 
 void TableReader::ProblemAt(const toml::source_region& where, std::string_view key,
                             const std::string& what) {
-  problems_.Add(where, Name(key) + ": " + what);
+  problems_.Add(where, Path(key) + ": " + what);
 }
 
 void TableReader::WrongType(std::string_view key, const toml::node& node, std::string_view wanted) {
-  problems_.Add(node.source(), Name(key) + ": is " + std::string(TypeName(node)) + "; expected " +
+  problems_.Add(node.source(), Path(key) + ": is " + std::string(TypeName(node)) + "; expected " +
                                    std::string(wanted));
 }
 
@@ -168,7 +168,7 @@ bool TableReader::ReadNumber(const std::string& name, const toml::node& node,
 }
 
 void TableReader::Number(std::string_view key, float& value, const NumberRange& range) {
-  if (const toml::node* node = Find(key)) ReadNumber(Name(key), *node, range, value);
+  if (const toml::node* node = Find(key)) ReadNumber(Path(key), *node, range, value);
 }
 
 void TableReader::Numbers(std::string_view key, float* values, std::size_t count,
@@ -180,7 +180,7 @@ void TableReader::Numbers(std::string_view key, float* values, std::size_t count
     return WrongType(key, *node, "an array of " + std::to_string(count) + " numbers");
   }
   for (std::size_t i = 0; i < count; ++i) {
-    ReadNumber(Name(key) + "[" + std::to_string(i) + "]", *array->get(i), range, values[i]);
+    ReadNumber(Path(key) + "[" + std::to_string(i) + "]", *array->get(i), range, values[i]);
   }
 }
 
@@ -191,7 +191,7 @@ void TableReader::Integer(std::string_view key, int& value, int min, int max,
   if (!node->is_integer()) return WrongType(key, *node, "a whole number");
   float checked = 0;
   const NumberRange range{static_cast<double>(min), static_cast<double>(max), unit};
-  if (!ReadNumber(Name(key), *node, range, checked)) return;
+  if (!ReadNumber(Path(key), *node, range, checked)) return;
   value = static_cast<int>(*node->value<std::int64_t>());
 }
 
@@ -215,6 +215,20 @@ void TableReader::Text(std::string_view key, std::string& value) {
   value = *node->value<std::string>();
 }
 
+bool TableReader::Name(std::string_view key, ShortName& value) {
+  if (Find(key) == nullptr) return false;
+  std::string text;
+  Text(key, text);
+  const auto made = ShortName::From(text);
+  if (made) {
+    value = *made;
+  } else {
+    Problem(key, "\"" + text + "\" is no name; expected 1 to " + std::to_string(kMaxNameLength) +
+                     " printable ASCII characters without spaces");
+  }
+  return made.has_value();
+}
+
 std::size_t TableReader::ChoiceIndex(std::string_view key, const std::vector<std::string>& names) {
   std::string all;
   for (const std::string& name : names) all += (all.empty() ? "\"" : ", \"") + name + "\"";
@@ -235,7 +249,7 @@ std::size_t TableReader::ChoiceIndex(std::string_view key, const std::vector<std
 TableReader TableReader::Table(std::string_view key) {
   const toml::node* node = Find(key);
   if (node != nullptr && !node->is_table()) WrongType(key, *node, "a table");
-  return {problems_, node == nullptr ? nullptr : node->as_table(), Name(key)};
+  return {problems_, node == nullptr ? nullptr : node->as_table(), Path(key)};
 }
 
 void TableReader::EachTable(std::string_view key, const std::function<void(TableReader&)>& each) {
@@ -244,11 +258,11 @@ void TableReader::EachTable(std::string_view key, const std::function<void(Table
   const toml::array* array = node->as_array();
   if (array == nullptr || !array->is_homogeneous(toml::node_type::table)) {
     if (array != nullptr && array->empty()) return;
-    return WrongType(key, *node, "tables ([[" + Name(key) + "]])");
+    return WrongType(key, *node, "tables ([[" + Path(key) + "]])");
   }
   for (std::size_t i = 0; i < array->size(); ++i) {
     TableReader reader(problems_, array->get(i)->as_table(),
-                       Name(key) + "[" + std::to_string(i) + "]");
+                       Path(key) + "[" + std::to_string(i) + "]");
     each(reader);
   }
 }
@@ -266,7 +280,7 @@ void TableReader::EachNumber(
   for (const auto& [at, name] : order) {
     const toml::node& value = *table->get(name->str());
     float number = 0;
-    if (!ReadNumber(Name(key) + "." + std::string(name->str()), value, {}, number)) continue;
+    if (!ReadNumber(Path(key) + "." + std::string(name->str()), value, {}, number)) continue;
     each(name->str(), static_cast<double>(number), name->source());
   }
 }
@@ -283,7 +297,7 @@ bool TableReader::EachPair(
   }
   bool good = true;
   for (std::size_t i = 0; i < array->size(); ++i) {
-    const std::string name = Name(key) + "[" + std::to_string(i) + "]";
+    const std::string name = Path(key) + "[" + std::to_string(i) + "]";
     const toml::array* pair = array->get(i)->as_array();
     float first = 0;
     float second = 0;
@@ -317,7 +331,7 @@ void TableReader::Finish() {
     if (hint.empty()) {
       for (const std::string& known : known_) hint += (hint.empty() ? "; known: " : ", ") + known;
     }
-    problems_.Add(name.source(), "unknown key \"" + Name(key) + "\"" + hint);
+    problems_.Add(name.source(), "unknown key \"" + Path(key) + "\"" + hint);
   }
 }
 

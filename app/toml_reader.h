@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/name.h"
 #include "core/base/time.h"
 
 #define TOML_HEADER_ONLY 1
@@ -50,6 +51,9 @@ struct NumberRange {
   std::string_view unit{};  // for the message only
 };
 
+// As messages show a number: 0.5, 1500, 1e+06.
+std::string Printed(double number);
+
 // Reads one table of a TOML file into plain variables. A key that is absent leaves its variable as
 // it is; whatever is wrong becomes a problem and leaves the variable, too. Finish reports the keys
 // that nobody asked for.
@@ -63,6 +67,8 @@ class TableReader {
   void Milliseconds(std::string_view key, Duration& value, int max_ms);
   void Flag(std::string_view key, bool& value);
   void Text(std::string_view key, std::string& value);
+  // False when a problem was reported, or the key is absent.
+  bool Name(std::string_view key, ShortName& value);
   // An array of exactly `count` numbers.
   void Numbers(std::string_view key, float* values, std::size_t count, const NumberRange& range);
   template <class T>
@@ -95,6 +101,8 @@ class TableReader {
   void ProblemAt(const toml::source_region& where, std::string_view key, const std::string& what);
   // Reports an absent key.
   bool Require(std::string_view key, std::string_view what_it_is);
+  // A key that is another reader's.
+  void Leave(std::string_view key) { (void)Find(key); }
   void Finish();
 
  private:
@@ -103,7 +111,7 @@ class TableReader {
   bool ReadNumber(const std::string& name, const toml::node& node, const NumberRange& range,
                   float& value);
   std::size_t ChoiceIndex(std::string_view key, const std::vector<std::string>& names);
-  std::string Name(std::string_view key) const;
+  std::string Path(std::string_view key) const;
 
   Problems& problems_;
   const toml::table* table_;

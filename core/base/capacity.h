@@ -22,6 +22,7 @@ inline constexpr std::size_t kMaxRegionGaps = 32;      // between two markers, i
 inline constexpr std::size_t kMaxNeutralFrames = 128;  // of which a neutral is the median
 inline constexpr std::size_t kMaxServos = 64;          // of one rig, all buses together
 inline constexpr std::size_t kMaxBuses = 8;
+inline constexpr std::size_t kMaxLinkages = 32;  // rules between two servos
 inline constexpr std::size_t kMaxNameLength = 31;
 inline constexpr std::size_t kMaxWirePayload = 1024;  // bytes of one message before COBS
 

@@ -24,6 +24,7 @@
 #include "app/networks.h"
 #include "app/profile_file.h"
 #include "app/rig_file.h"
+#include "app/servo_rig_file.h"
 #include "tools/facewire/camera_report.h"
 #include "tools/facewire/commands.h"
 #include "tools/facewire/doctor_gpio.h"
@@ -82,8 +83,9 @@ std::optional<app::Config> CheckConfig(const DoctorOptions& options,
                          "facewired --check --config " + options.config,
                          [&] { config = app::LoadConfig(options.config); }));
   if (findings.back().verdict != Verdict::kOk) return std::nullopt;
-  findings.push_back(Try("rig", config.character.rig.string(), "correct [character] rig",
-                         [&] { (void)app::LoadRig(config.character.rig); }));
+  findings.push_back(Try("rig", config.character.rig.string(), "correct [character] rig", [&] {
+    (void)app::LoadServoRig(config.character.rig, app::LoadRig(config.character.rig));
+  }));
   const auto check_profile = [&](const fs::path& path, const std::string& key) {
     if (path.empty()) return;
     findings.push_back(Try(key, path.string(), "correct [character] " + key,
