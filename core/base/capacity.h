@@ -21,6 +21,7 @@ inline constexpr std::size_t kMaxRegions = 16;         // of the face, in one pr
 inline constexpr std::size_t kMaxRegionGaps = 32;      // between two markers, in one region
 inline constexpr std::size_t kMaxNeutralFrames = 128;  // of which a neutral is the median
 inline constexpr std::size_t kMaxNameLength = 31;
+inline constexpr std::size_t kMaxServos = 64;         // on all buses together
 inline constexpr std::size_t kMaxWirePayload = 1024;  // bytes of one message before COBS
 
 }  // namespace facewire
