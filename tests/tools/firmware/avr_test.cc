@@ -121,7 +121,7 @@ TEST(Firmware, ComputesATickInTimeWhateverItDoes) {
   double longest = 0;
   for (int i = 0; i < 20; ++i) {
     context.Follow(AllAt(i % 2 == 0 ? 2000 : 1000), 60 + 10 * i);  // ramps, with bytes coming
-    context.board.RunFor(i % 5 * 50);                             // holds and eases
+    context.board.RunFor(i % 5 * 50);                              // holds and eases
     for (const auto& tick : context.board.TakeBusy()) {
       longest = std::max(longest, tick.width_us / 1000);
     }
@@ -171,8 +171,8 @@ Failsafe Observe(const std::vector<SimulatedBoard::Pulse>& seen, double silent_s
   return result;
 }
 
-// What is decided at a tick shows up to a period later, and its place in the period is the servo's own;
-// an ease takes a period or two for its first microsecond.
+// What is decided at a tick shows up to a period later, and its place in the period is the servo's
+// own; an ease takes a period or two for its first microsecond.
 void ExpectTimes(const Failsafe& seen, double hold_ms, double ease_ms, double release_ms) {
   EXPECT_NEAR(seen.eases.value_or(0), hold_ms + 30, 35);
   EXPECT_NEAR(seen.rests.value_or(0), hold_ms + ease_ms + 10, 35);
@@ -204,13 +204,13 @@ TEST(Firmware, DoesSoWhereverAFrameIsCut) {
   context.board.Send(context.line.Send(quick));
   const std::size_t size = Line().Send(AllAt(1600)).size();
   for (std::size_t cut = 0; cut < size; ++cut) {
-    context.Follow(AllAt(1600), 160);
+    context.Follow(AllAt(1600), 120);
     context.Forget();
     const double silent_since = context.board.now_ms() - kPeriodMs;
     Bytes part = context.line.Send(AllAt(1000));
     part.resize(cut);
     context.board.Send(part);
-    context.board.RunFor(300);
+    context.board.RunFor(240);
     const Failsafe seen = Observe(context.board.TakePulses(cut % kServos), silent_since, 1600);
     ExpectTimes(seen, 60, 60, 60);
     EXPECT_EQ(context.State(), wire::ReceiverState::kReleased);
