@@ -1,5 +1,7 @@
 #include "tools/firmware/message.h"
 
+#include <stddef.h>
+
 #include "tools/firmware/bytes.h"
 #include "tools/firmware/crc32.h"
 
@@ -10,7 +12,8 @@
 
 static bool IsPulse(uint16_t width) { return width >= FW_MIN_PULSE && width <= FW_MAX_PULSE; }
 
-static FwServo ReadServo(const uint8_t* bytes) {
+static FwServo ReadServo(const uint8_t* payload, uint8_t index) {
+  const uint8_t* const bytes = payload + SETUP_BYTES + (size_t)SERVO_BYTES * index;
   return (FwServo){.min = FwGet16(bytes),
                    .neutral = FwGet16(bytes + 2),
                    .max = FwGet16(bytes + 4),
@@ -33,7 +36,7 @@ FwReading FwReadSetup(const uint8_t* payload, uint16_t size, FwSetup* setup) {
     return kFwMalformed;
   }
   for (uint8_t i = 0; i < count && i < FW_SERVOS; ++i) {
-    const FwServo servo = ReadServo(payload + SETUP_BYTES + SERVO_BYTES * i);
+    const FwServo servo = ReadServo(payload, i);
     if (!IsValid(&servo)) return kFwMalformed;
   }
   if (count > FW_SERVOS) return kFwTooMany;
@@ -44,9 +47,13 @@ FwReading FwReadSetup(const uint8_t* payload, uint16_t size, FwSetup* setup) {
   setup->release_ms = FwGet32(payload + 12);
   setup->count = count;
   for (uint8_t i = 0; i < count; ++i) {
-    setup->servos[i] = ReadServo(payload + SETUP_BYTES + SERVO_BYTES * i);
+    setup->servos[i] = ReadServo(payload, i);
   }
   return kFwOk;
+}
+
+static uint16_t ReadPulse(const uint8_t* payload, uint8_t index) {
+  return FwGet16(payload + PULSES_BYTES + (size_t)2 * index);
 }
 
 FwReading FwReadPulses(const uint8_t* payload, uint16_t size, FwPulses* pulses) {
@@ -54,7 +61,7 @@ FwReading FwReadPulses(const uint8_t* payload, uint16_t size, FwPulses* pulses) 
   const uint8_t count = payload[5];
   if (count > MOST_SERVOS || size < PULSES_BYTES + 2 * (uint16_t)count) return kFwMalformed;
   for (uint8_t i = 0; i < count; ++i) {
-    const uint16_t width = FwGet16(payload + PULSES_BYTES + 2 * i);
+    const uint16_t width = ReadPulse(payload, i);
     if (width != 0 && !IsPulse(width)) return kFwMalformed;
   }
   if (count > FW_SERVOS) return kFwTooMany;
@@ -63,7 +70,7 @@ FwReading FwReadPulses(const uint8_t* payload, uint16_t size, FwPulses* pulses) 
   pulses->stop = (payload[4] & 1U) != 0;
   pulses->count = count;
   for (uint8_t i = 0; i < count; ++i) {
-    pulses->width[i] = FwGet16(payload + PULSES_BYTES + 2 * i);
+    pulses->width[i] = ReadPulse(payload, i);
   }
   return kFwOk;
 }

@@ -34,12 +34,12 @@ static void TakeSetup(FwReceiver* receiver, const FwSetup* setup) {
   receiver->setup = *setup;
   receiver->fresh = false;
   for (uint8_t i = 0; i < setup->count; ++i) {
-    const FwServo* servo = &setup->servos[i];
+    FwLimits* limits = &receiver->limits[i];
     FwMotion* motion = &receiver->motion[i];
-    if (!receiver->known[i]) motion->position = FwPosition(servo->neutral);
+    *limits = FwLimitsOf(&setup->servos[i]);
+    if (!receiver->known[i]) motion->position = limits->neutral;
     receiver->known[i] = true;
-    motion->velocity = 0;
-    FwMotionFollow(motion, servo, motion->position);
+    FwMotionFollow(motion, limits, motion->position);  // into the limits
   }
   receiver->state = kFwWaiting;
   Release(receiver);
@@ -100,9 +100,9 @@ static void Follow(FwReceiver* receiver) {
     FwMotion* motion = &receiver->motion[i];
     const int32_t goal = FwPosition(receiver->wish[i]);
     if (motion->caught_up) {
-      FwMotionFollow(motion, &receiver->setup.servos[i], goal);
+      FwMotionFollow(motion, &receiver->limits[i], goal);
     } else {
-      FwMotionRamp(motion, &receiver->setup.servos[i], goal);
+      FwMotionRamp(motion, &receiver->limits[i], goal);
       ramping = true;
     }
   }
@@ -115,7 +115,7 @@ static void Ease(FwReceiver* receiver, uint32_t elapsed_ms) {
   for (uint8_t i = 0; i < receiver->setup.count; ++i) {
     FwMotion* motion = &receiver->motion[i];
     if (begins) motion->eased_from = motion->position;
-    if (receiver->on[i]) FwMotionEase(motion, &receiver->setup.servos[i], elapsed_ms, ease_ms);
+    if (receiver->on[i]) FwMotionEase(motion, &receiver->limits[i], elapsed_ms, ease_ms);
   }
   Enter(receiver, elapsed_ms < ease_ms ? kFwEasing : kFwResting);
 }

@@ -27,8 +27,9 @@ typedef enum {
 typedef struct {
   FwSetup setup;
   FwState state;
-  bool known[FW_SERVOS];  // the servo's position is not a guess
-  bool on[FW_SERVOS];     // it gets pulses
+  bool known[FW_SERVOS];       // the servo's position is not a guess
+  bool on[FW_SERVOS];          // it gets pulses
+  FwLimits limits[FW_SERVOS];  // of the setup
   FwMotion motion[FW_SERVOS];
   uint16_t wish[FW_SERVOS];  // of the last pulses that were obeyed; 0 for none
   bool stop;

@@ -33,45 +33,49 @@ int Us(const FwMotion& motion) {
 
 TEST(Motion, FollowsAtItsSpeedAndNoFaster) {
   const FwServo servo = TestServo();
+  const FwLimits limits = FwLimitsOf(&servo);
   FwMotion motion = At(1500);
-  FwMotionFollow(&motion, &servo, FwPosition(4 * 1700));
+  FwMotionFollow(&motion, &limits, FwPosition(4 * 1700));
   EXPECT_EQ(Us(motion), 1580);  // 4000 us/s for 20 ms
-  FwMotionFollow(&motion, &servo, FwPosition(4 * 1590));
+  FwMotionFollow(&motion, &limits, FwPosition(4 * 1590));
   EXPECT_EQ(Us(motion), 1590);
 }
 
 TEST(Motion, NeverLeavesItsRange) {
   const FwServo servo = TestServo();
+  const FwLimits limits = FwLimitsOf(&servo);
   FwMotion motion = At(1990);
-  FwMotionFollow(&motion, &servo, FwPosition(FW_MAX_PULSE));
+  FwMotionFollow(&motion, &limits, FwPosition(FW_MAX_PULSE));
   EXPECT_EQ(Us(motion), 2000);
   motion = At(1010);
-  for (int i = 0; i < 100; ++i) FwMotionRamp(&motion, &servo, 0);
+  for (int i = 0; i < 100; ++i) FwMotionRamp(&motion, &limits, 0);
   EXPECT_EQ(Us(motion), 1000);
 }
 
 TEST(Motion, ARampRisesRunsAndStopsAtItsGoalInTheTimeOfATrapezoid) {
   const FwServo servo = TestServo();
+  const FwLimits limits = FwLimitsOf(&servo);
   FwMotion motion = At(1500);
   int ticks = 0;
   while (!motion.caught_up && ticks < 1000) {
-    FwMotionRamp(&motion, &servo, FwPosition(4 * 2000));
+    FwMotionRamp(&motion, &limits, FwPosition(4 * 2000));
     ++ticks;
   }
   // 500 us at 500 us/s and 2000 us/s^2: 1 s + 0.25 s.
   EXPECT_NEAR(ticks / kTicksPerS, 1.25, 0.08);
-  for (int i = 0; i < 20; ++i) FwMotionRamp(&motion, &servo, FwPosition(4 * 2000));
+  for (int i = 0; i < 20; ++i) FwMotionRamp(&motion, &limits, FwPosition(4 * 2000));
   EXPECT_EQ(motion.position, FwPosition(4 * 2000));
   EXPECT_EQ(motion.velocity, 0);
 }
 
 TEST(Motion, ARampCatchesUpWithAGoalThatSwingsFasterThanItself) {
   const FwServo servo = TestServo();
+  const FwLimits limits = FwLimitsOf(&servo);
   FwMotion motion = At(1000);
   int ticks = 0;
   while (!motion.caught_up && ticks < 1000) {
     const double us = 1500 + 200 * std::sin(2 * 3.14159 * ticks / kTicksPerS);
-    FwMotionRamp(&motion, &servo, static_cast<std::int32_t>(us * kPositionsPerUs));
+    FwMotionRamp(&motion, &limits, static_cast<std::int32_t>(us * kPositionsPerUs));
     ++ticks;
   }
   EXPECT_LT(ticks / kTicksPerS, 2.5);
@@ -91,6 +95,7 @@ TEST(Motion, ARampKeepsItsSpeedItsAccelerationAndItsRangeWhateverItsGoalDoes) {
     servo.speed = static_cast<std::uint16_t>(any(1, most));
     servo.ramp_speed = static_cast<std::uint16_t>(any(1, most));
     servo.ramp_acceleration = static_cast<std::uint16_t>(any(1, most));
+    const FwLimits limits = FwLimitsOf(&servo);
     FwMotion motion = {};
     motion.position = FwPosition(servo.neutral);
     const double speed = std::min(servo.speed, servo.ramp_speed) / kTicksPerS * kPositionsPerUs;
@@ -101,7 +106,7 @@ TEST(Motion, ARampKeepsItsSpeedItsAccelerationAndItsRangeWhateverItsGoalDoes) {
     for (int tick = 0; tick < 200; ++tick) {
       if (any(0, 20) == 0) goal = any(0, FwPosition(0xFFFF));
       const std::int32_t before = motion.position;
-      FwMotionRamp(&motion, &servo, goal);
+      FwMotionRamp(&motion, &limits, goal);
       const std::int32_t move = motion.position - before;
       ASSERT_LE(std::abs(move), speed) << round;
       ASSERT_GE(motion.position, FwPosition(servo.min));
@@ -118,12 +123,13 @@ TEST(Motion, ARampKeepsItsSpeedItsAccelerationAndItsRangeWhateverItsGoalDoes) {
 
 TEST(Motion, AnEaseIsAtNeutralWhenItsTimeIsOver) {
   const FwServo servo = TestServo();
+  const FwLimits limits = FwLimitsOf(&servo);
   FwMotion motion = At(2000);
   motion.eased_from = motion.position;
   int fastest = 0;
   for (std::uint32_t t = 0; t < 1000; t += FW_TICK_MS) {
     const int before = motion.position;
-    FwMotionEase(&motion, &servo, t, 1000);
+    FwMotionEase(&motion, &limits, t, 1000);
     ASSERT_LE(motion.position, before);
     fastest = std::max(fastest, before - motion.position);
     if (t == 500) {
@@ -131,7 +137,7 @@ TEST(Motion, AnEaseIsAtNeutralWhenItsTimeIsOver) {
     }
   }
   EXPECT_NEAR(Us(motion), 1500, 2);
-  FwMotionEase(&motion, &servo, 1000, 1000);
+  FwMotionEase(&motion, &limits, 1000, 1000);
   EXPECT_EQ(Us(motion), 1500);
   // 1.5 times the mean speed in the middle, none at the ends.
   EXPECT_NEAR(fastest * kTicksPerS / kPositionsPerUs, 750, 20);
@@ -139,9 +145,10 @@ TEST(Motion, AnEaseIsAtNeutralWhenItsTimeIsOver) {
 
 TEST(Motion, AnEaseThatLeavesNoTimeStillKeepsTheSpeed) {
   const FwServo servo = TestServo();
+  const FwLimits limits = FwLimitsOf(&servo);
   FwMotion motion = At(2000);
   motion.eased_from = motion.position;
-  FwMotionEase(&motion, &servo, 0, 0);
+  FwMotionEase(&motion, &limits, 0, 0);
   EXPECT_EQ(Us(motion), 1920);
 }
 
@@ -150,11 +157,12 @@ TEST(Motion, TheLongestEaseOfTheWidestRangeDoesNotOverflow) {
   servo.min = servo.neutral = FW_MIN_PULSE;
   servo.max = FW_MAX_PULSE;
   servo.speed = 0xFFFF;
+  const FwLimits limits = FwLimitsOf(&servo);
   FwMotion motion = At(2500);
   motion.eased_from = motion.position;
-  FwMotionEase(&motion, &servo, 0xFFFFFFFE / 2, 0xFFFFFFFF);
+  FwMotionEase(&motion, &limits, 0xFFFFFFFE / 2, 0xFFFFFFFF);
   EXPECT_NEAR(Us(motion), 1500, 2);
-  FwMotionEase(&motion, &servo, 0xFFFFFFFE, 0xFFFFFFFF);
+  FwMotionEase(&motion, &limits, 0xFFFFFFFE, 0xFFFFFFFF);
   EXPECT_NEAR(Us(motion), 500, 2);
 }
 

@@ -17,6 +17,9 @@ constexpr double kCyclesPerUs = 16;
 // Ten bits at 115200 baud.
 constexpr avr_cycle_count_t kCyclesPerByte = 1389;
 
+constexpr std::size_t kMemoryBegin = 0x100;
+constexpr std::uint8_t kUntouched = 0xA5;
+
 // Port and bit of a servo's pin, or of A0 behind the last servo.
 std::pair<char, int> PlaceOf(int pin) {
   if (pin < 6) return {'D', pin + 2};
@@ -33,6 +36,9 @@ SimulatedBoard::SimulatedBoard() : avr_(avr_make_mcu_by_name("atmega328p")) {
   avr_init(avr_);
   firmware.frequency = 16'000'000;
   avr_load_firmware(avr_, &firmware);
+  std::free(firmware.flash);
+  // As it may be after a power-on.
+  std::fill(avr_->data + kMemoryBegin, avr_->data + avr_->ramend + 1, kUntouched);
   avr_->vcc = avr_->avcc = avr_->aref = 5000;
 
   std::uint32_t flags = 0;
@@ -116,6 +122,16 @@ std::vector<wire::ReceiverStatus> SimulatedBoard::TakeStatus() {
 
 bool SimulatedBoard::AnyServoHigh() const {
   return std::any_of(pins_.begin(), pins_.begin() + kServos, [](const Pin& p) { return p.high; });
+}
+
+std::size_t SimulatedBoard::UntouchedBytes() const {
+  std::size_t longest = 0;
+  std::size_t run = 0;
+  for (std::size_t at = kMemoryBegin; at <= avr_->ramend; ++at) {
+    run = avr_->data[at] == kUntouched ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  return longest;
 }
 
 void SimulatedBoard::Hang() {

@@ -45,6 +45,9 @@ class SimulatedBoard {
   std::vector<wire::ReceiverStatus> TakeStatus();
   const wire::LinkStats& received() const { return decoder_.stats(); }
 
+  // Bytes of its memory that were never written: between what is static and the deepest stack.
+  std::size_t UntouchedBytes() const;
+
   // What a bug would do to the program: it stays where it is, with its interrupts.
   void Hang();
   // The reset pin.

@@ -10,7 +10,8 @@
 // ticks (another interrupt 8, its own beginning 10); what is left is waited for with a loop of 5
 // cycles: an edge is late by 0 to 0.3 us.
 #define LEAD 32
-// When to compute the next period's pulses: 11 ms before this one ends, of which it takes at most 8.
+// When to compute the next period's pulses: 11 ms before this one ends, of which it takes at
+// most 8.
 #define TICK_AT 16000
 
 #define PORT_D_PINS 0xFC
