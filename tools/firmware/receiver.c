@@ -159,13 +159,11 @@ void FwReceiverTick(FwReceiver* receiver) {
 
 uint16_t FwReceiverPulse(const FwReceiver* receiver, uint8_t servo) {
   if (!receiver->on[servo]) return 0;
-  // Half microseconds within the limits, whatever rounding does at an odd one.
-  const FwServo* limits = &receiver->setup.servos[servo];
-  uint16_t half_us =
+  // To the nearest, up from the middle: no position is below min, so no pulse is; max needs a look.
+  const uint16_t half_us =
       (uint16_t)((receiver->motion[servo].position + FW_PER_QUARTER) / (2 * FW_PER_QUARTER));
-  if (half_us > limits->max / 2) half_us = limits->max / 2;
-  if (2 * half_us < limits->min) ++half_us;
-  return half_us;
+  const uint16_t most = receiver->setup.servos[servo].max / 2;
+  return half_us < most ? half_us : most;
 }
 
 uint16_t FwReceiverPosition(const FwReceiver* receiver, uint8_t servo) {
