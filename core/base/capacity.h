@@ -20,8 +20,8 @@ inline constexpr std::size_t kMaxTrainingSamples = 1024;
 inline constexpr std::size_t kMaxRegions = 16;         // of the face, in one profile
 inline constexpr std::size_t kMaxRegionGaps = 32;      // between two markers, in one region
 inline constexpr std::size_t kMaxNeutralFrames = 128;  // of which a neutral is the median
+inline constexpr std::size_t kMaxServos = 64;          // of one rig, all buses together
 inline constexpr std::size_t kMaxNameLength = 31;
-inline constexpr std::size_t kMaxServos = 64;         // on all buses together
 inline constexpr std::size_t kMaxWirePayload = 1024;  // bytes of one message before COBS
 
 }  // namespace facewire
