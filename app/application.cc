@@ -2,9 +2,7 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <system_error>
 #include <utility>
 
@@ -13,9 +11,7 @@
 #include "app/error.h"
 #include "app/networks.h"
 #include "app/neutral_file.h"
-#include "app/rig_file.h"
 #include "app/status_report.h"
-#include "core/wire/rig_description.h"
 #include "hal/fake/fake_camera.h"
 #include "hal/replay/replay_camera.h"
 
@@ -60,44 +56,10 @@ CameraOptions CameraOptionsOf(const CameraConfig& camera) {
   return options;
 }
 
-const retarget::ExpressionMapping* MappingOf(const std::unique_ptr<Profile>& profile) {
-  return profile == nullptr ? nullptr : &profile->mapping();
-}
-
-std::vector<std::string> SignalNames(const std::unique_ptr<Profile>& profile) {
-  std::vector<std::string> names;
-  if (profile == nullptr) return names;
-  for (const ShortName& signal : profile->mapping().signals()) names.emplace_back(signal.view());
-  return names;
-}
-
-// Null for an empty path. A camera shows landmarks, nobody's markers.
-std::unique_ptr<Profile> LoadLiveProfile(const std::filesystem::path& path) {
-  if (path.empty()) return nullptr;
-  auto profile = LoadProfile(path);
-  if (!profile->mapping().reads_landmarks()) {
-    throw BadInput(path.string() + ": reads markers (\"" +
-                   std::string(profile->mapping().markers().front().view()) +
-                   "\", ...) that a camera does not show; train it with landmarks, lm0 to lm477");
-  }
-  return profile;
-}
-
 // Where an emergency stop is remembered: for good, and, when that is impossible, over a restart of
 // the service (RuntimeDirectoryPreserve in the unit).
 std::vector<std::string> LatchFolders(const Config& config) {
   return {config.neutral.folder.string(), config.control.socket.parent_path().string()};
-}
-
-// Calls `part`; what is wrong with it joins what was wrong before.
-template <class Part>
-void Collect(std::string& problems, Part part) {
-  try {
-    part();
-  } catch (const BadInput& e) {
-    if (!problems.empty()) problems += '\n';
-    problems += e.what();
-  }
 }
 
 }  // namespace
@@ -117,11 +79,9 @@ Application::Application(const ApplicationOptions& options, hal::Clock& clock, J
 // In the order in which the parts lie in the block.
 void Application::Build() {
   const track::Model model = config_.tracker.tracker.model;
-  const std::size_t character_bytes = retarget::Retargeter::RequiredBytes();
-  const std::size_t capture_bytes = retarget::NeutralCapture::RequiredBytes();
   constexpr std::size_t kAlignment = 64;  // what rounding up each part may take
-  block_bytes_ =
-      FramePath::RequiredBytes(model) + 2 * character_bytes + capture_bytes + 5 * kAlignment;
+  block_bytes_ = FramePath::RequiredBytes(model) + Cast::RequiredBytes() +
+                 retarget::NeutralCapture::RequiredBytes() + 3 * kAlignment;
   block_ = std::make_unique<std::byte[]>(block_bytes_);  // zeroed: every page is there from now on
   arena_.emplace(std::span(block_.get(), block_bytes_));
 
@@ -134,30 +94,7 @@ void Application::Build() {
     if (loaded.error() == Errc::kCorrupt) throw BadInput(line + Name(loaded.error()));
     throw Failure(line + Name(loaded.error()));
   });
-  bool have_profile = true;
-  Collect(problems, [&] {
-    have_profile = false;
-    profile_ = LoadLiveProfile(config_.character.profile);
-    have_profile = true;
-  });
-  bool have_personal = false;
-  Collect(problems, [&] {
-    personal_ = LoadLiveProfile(config_.character.personal);
-    have_personal = true;
-  });
-  for (std::span<std::byte>& memory : character_memory_) {
-    memory = {static_cast<std::byte*>(arena_->Allocate(character_bytes, kAlignment)),
-              character_bytes};
-    if (memory.data() == nullptr) throw Failure("the block of memory is too small");
-  }
-  Collect(problems, [&] {
-    // Without a profile its signals are unknown, and complaining about each would hide the cause.
-    if (have_profile && have_personal) {
-      BuildCharacter(config_, characters_[running_], character_memory_[running_]);
-    } else {
-      (void)LoadRig(config_.character.rig);
-    }
-  });
+  Collect(problems, [&] { cast_.Load(config_.character, *arena_); });
   retarget::NeutralCaptureConfig capture;
   if (config_.neutral.auto_s > 0) {
     capture.duration = milliseconds(static_cast<int>(1000 * config_.neutral.auto_s));
@@ -166,24 +103,6 @@ void Application::Build() {
     throw Failure(std::string("preparing the neutral's capture: ") + Name(ok.error()));
   }
   if (!problems.empty()) throw BadInput(problems);
-}
-
-void Application::BuildCharacter(const Config& config, std::optional<Character>& character,
-                                 std::span<std::byte> memory) const {
-  std::vector<std::string> signals = SignalNames(profile_);
-  const std::vector<std::string> own = SignalNames(personal_);
-  signals.insert(signals.end(), own.begin(), own.end());
-  const Rig rig = LoadRig(config.character.rig, &signals);
-  character.emplace();
-  character->rig = rig;
-  character->rig_id = wire::RigId(rig);
-  Arena arena(memory);
-  if (const Result<> ok = character->retargeter.Configure(character->rig, MappingOf(profile_),
-                                                          arena, MappingOf(personal_));
-      !ok) {
-    throw Failure(config.character.rig.string() + ": " + Name(ok.error()));
-  }
-  character->retargeter.SetBlend(config.character.blend);
 }
 
 bool Application::PlaysFast() const {
@@ -256,7 +175,7 @@ void Application::Open() {
                 journal_.Write(Event::kButtonPress, AnswerText(answer).data(), Name(answer.code));
               },
           .log_panel = [this](const char* text) { journal_.Write(Event::kBoardLine, text); }},
-      *characters_[running_]);
+      cast_.running());
   TakeStoredNeutral();
   if (!no_control.empty()) journal_.Write(Event::kNoControl, no_control);
 }
@@ -378,19 +297,13 @@ std::string Application::Reload() {
   supervisor_.Reloading(clock_.Now());
   try {
     const Config fresh = LoadConfig(options_.config);
-    const std::size_t idle = 1 - running_;
-    BuildCharacter(fresh, characters_[idle], character_memory_[idle]);
-    // A blend that was set live stays, unless the file has another one than before.
-    if (fresh.character.blend == config_.character.blend)
-      characters_[idle]->retargeter.SetBlend(characters_[running_]->retargeter.blend());
-    if (const Result<> ok = service_->Reload(ServiceConfigOf(fresh), *characters_[idle]); !ok) {
+    Character& prepared = cast_.Prepare(fresh.character);
+    if (const Result<> ok = service_->Reload(ServiceConfigOf(fresh), prepared); !ok) {
       throw BadInput(fresh.character.rig.string() + ": " + Name(ok.error()));
     }
-    running_ = idle;
+    cast_.Switch(fresh.character);
     config_.states = fresh.states;
     config_.filter = fresh.filter;
-    config_.character.rig = fresh.character.rig;
-    config_.character.blend = fresh.character.blend;
     journal_.Write(Event::kReloaded,
                    "reloaded rig, blend, filter, rates and state times; other changes need a "
                    "restart");
@@ -403,54 +316,26 @@ std::string Application::Reload() {
 }
 
 std::string Application::Summary() const {
-  const Rig& rig = characters_[running_]->rig;
+  const std::filesystem::path& socket = config_.control.socket;
   std::string text = "ok\n";
   text += "camera   " + (camera_address_.empty() ? "a blank picture" : camera_address_) + "\n";
   text += "networks " + config_.tracker.networks.string() + "\n";
-  text += "rig      " + std::string(rig.name.view()) + ": " + std::to_string(rig.bones.size()) +
-          " bones, " + std::to_string(rig.channels.size()) + " channels\n";
-  text += "profile  " +
-          (profile_ == nullptr
-               ? "none: bones only"
-               : config_.character.profile.string() + ": " +
-                     std::to_string(profile_->mapping().signals().size()) + " signals") +
-          "\n";
-  text += "personal " + PersonalSummary() + "\n";
+  text += cast_.Summary();
   text += "gpio     " + GpioSummary(config_.gpio) + "\n";
   text += "host     " + (line_address_.empty() ? "none" : line_address_) + "\n";
-  text += "control  " +
-          (config_.control.socket.empty() ? "none" : config_.control.socket.string()) + "\n";
+  text += "control  " + (socket.empty() ? "none" : socket.string()) + "\n";
   return text;
-}
-
-std::string Application::PersonalSummary() const {
-  if (personal_ == nullptr) return "none";
-  const auto own = personal_->mapping().signals();
-  const auto shared = std::ranges::count_if(own, [&](const ShortName& signal) {
-    return profile_ != nullptr && std::ranges::find(profile_->mapping().signals(), signal) !=
-                                      profile_->mapping().signals().end();
-  });
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), ": %zu signals, %zu of them shared, blend %.2f",
-                own.size(), static_cast<std::size_t>(shared),
-                static_cast<double>(config_.character.blend));
-  return config_.character.personal.string() + text.data();
 }
 
 MemoryReport Application::Memory() const {
   MemoryReport report;
-  const std::size_t character = retarget::Retargeter::RequiredBytes();
-  report.parts = {
-      {"tracker", FramePath::RequiredBytes(config_.tracker.tracker.model),
-       "networks, their weights and buffers"},
-      {"characters", 2 * character, "two mappings: one runs, a reload builds the other"},
-      {"neutral capture", retarget::NeutralCapture::RequiredBytes(),
-       "frames of a performer's face at rest"},
-      {"profile", profile_ == nullptr ? 0 : profile_->bytes(), "the expression mapping"},
-      {"personal profile", personal_ == nullptr ? 0 : personal_->bytes(),
-       "the performer's own expression mapping"},
-      {"service", sizeof(Application), "states, limits, rigs, frames of the line, counters"},
-  };
+  report.parts.push_back({"tracker", FramePath::RequiredBytes(config_.tracker.tracker.model),
+                          "networks, their weights and buffers"});
+  cast_.AddTo(report);
+  report.parts.push_back({"neutral capture", retarget::NeutralCapture::RequiredBytes(),
+                          "frames of a performer's face at rest"});
+  report.parts.push_back(
+      {"service", sizeof(Application), "states, limits, rigs, frames of the line, counters"});
   std::size_t footage = static_cast<std::size_t>(config_.camera.replay.memory_mib) << 20U;
   if (const auto* replay = dynamic_cast<const hal::replay::ReplayCamera*>(camera_.get())) {
     footage = replay->info().block_bytes;

@@ -1,7 +1,6 @@
 #ifndef FACEWIRE_APP_APPLICATION_H_
 #define FACEWIRE_APP_APPLICATION_H_
 
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <filesystem>
@@ -11,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/character.h"
+#include "app/cast.h"
 #include "app/config.h"
 #include "app/control.h"
 #include "app/follower.h"
@@ -19,7 +18,6 @@
 #include "app/host_line.h"
 #include "app/journal.h"
 #include "app/observer.h"
-#include "app/profile_file.h"
 #include "app/report.h"
 #include "app/service.h"
 #include "app/stop_latch.h"
@@ -71,15 +69,12 @@ class Application {
 
  private:
   void Build();
-  void BuildCharacter(const Config& config, std::optional<Character>& character,
-                      std::span<std::byte> memory) const;
   ServiceConfig ServiceConfigOf(const Config& config) const;
   bool PlaysFast() const;
   std::filesystem::path NeutralFile() const { return config_.neutral.folder / "performer.neutral"; }
   void TakeStoredNeutral();
   std::string OpenControl();
   std::string KeepNeutral(const retarget::Neutral& neutral) const;
-  std::string PersonalSummary() const;
   void PrepareStorage();
   std::string Reload();
   void RunErrands();
@@ -90,14 +85,10 @@ class Application {
   Config config_;
 
   std::size_t block_bytes_ = 0;
-  std::unique_ptr<std::byte[]> block_;  // networks, characters, capture: in this order
+  std::unique_ptr<std::byte[]> block_;  // networks, cast, capture: in this order
   std::optional<Arena> arena_;
   FramePath path_;
-  std::unique_ptr<Profile> profile_;   // or none: bones only
-  std::unique_ptr<Profile> personal_;  // or none
-  std::array<std::span<std::byte>, 2> character_memory_;
-  std::array<std::optional<Character>, 2> characters_;  // one runs, a reload builds the other
-  std::size_t running_ = 0;
+  Cast cast_;
   retarget::NeutralCapture capture_;
   FramePathFollower follower_{path_};
 

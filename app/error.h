@@ -21,6 +21,17 @@ class Failure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Calls `part`; what is wrong with its input joins what was wrong before, on a line of its own.
+template <class Part>
+void Collect(std::string& problems, Part part) {
+  try {
+    part();
+  } catch (const BadInput& e) {
+    if (!problems.empty()) problems += '\n';
+    problems += e.what();
+  }
+}
+
 }  // namespace facewire::app
 
 #endif  // FACEWIRE_APP_ERROR_H_

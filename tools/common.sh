@@ -35,6 +35,9 @@ build() {
     die "building preset $preset failed, see above"
 }
 
+# program PRESET NAME: the file that the build has made; what CPack has copied of it lies in package/.
+program() { find "build/$1" -path "build/$1/package" -prune -o -type f -name "$2" -perm -u+x -print; }
+
 # log NAME: where the output of a step goes that is only worth showing when it fails.
 log() {
   mkdir -p "$root/build/log"

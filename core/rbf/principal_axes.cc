@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/arena.h"
+#include "core/rbf/matrix_product.h"
 
 namespace facewire::rbf {
 namespace {
@@ -22,15 +23,17 @@ double Dot(const double* a, const double* b, std::size_t n) noexcept {
   return sum;
 }
 
-// Gram-Schmidt, twice for precision. A direction that vanishes (fewer directions of motion than
-// axes) is replaced by a coordinate axis, so that the basis is always orthonormal.
-void Orthonormalise(std::span<double> basis, std::size_t inputs, std::size_t axes) noexcept {
+// Gram-Schmidt. One pass keeps the directions apart from each other, which is enough on the way;
+// two make the basis orthonormal as far as double goes. A direction that vanishes (fewer directions
+// of motion than axes) is replaced by a coordinate axis, so that the basis is always orthonormal.
+void Orthonormalise(std::span<double> basis, std::size_t inputs, std::size_t axes,
+                    int passes) noexcept {
   std::size_t spare = 0;
   for (std::size_t a = 0; a < axes; ++a) {
     double* row = basis.data() + a * inputs;
     while (true) {
       const double before = std::sqrt(Dot(row, row, inputs));
-      for (int pass = 0; pass < 2; ++pass) {
+      for (int pass = 0; pass < passes; ++pass) {
         for (std::size_t b = 0; b < a; ++b) {
           const double* other = basis.data() + b * inputs;
           AddScaled(-Dot(row, other, inputs), other, row, inputs);
@@ -48,6 +51,35 @@ void Orthonormalise(std::span<double> basis, std::size_t inputs, std::size_t axe
   }
 }
 
+// `mean` and `covariance` begin as zeros. `rows` and `columns`, each axes x inputs, hold as many
+// centred samples at a time.
+void MeasureCovariance(std::span<const float> samples, std::span<double> mean,
+                       std::span<double> rows, std::span<double> columns,
+                       std::span<double> covariance) noexcept {
+  // Rows of the covariance that are found together, as far as their diagonal.
+  constexpr std::size_t kBand = 32;
+  const std::size_t inputs = mean.size();
+  const std::size_t count = samples.size() / inputs;
+  const std::size_t most = rows.size() / inputs;
+  for (std::size_t s = 0; s < count; ++s)
+    for (std::size_t i = 0; i < inputs; ++i) mean[i] += samples[s * inputs + i];
+  for (double& m : mean) m /= static_cast<double>(count);
+  for (std::size_t first = 0; first < count; first += most) {
+    const std::size_t depth = std::min(most, count - first);
+    for (std::size_t s = 0; s < depth; ++s)
+      for (std::size_t i = 0; i < inputs; ++i)
+        rows[s * inputs + i] = columns[i * depth + s] = samples[(first + s) * inputs + i] - mean[i];
+    for (std::size_t band = 0; band < inputs; band += kBand) {
+      const std::size_t end = std::min(band + kBand, inputs);
+      AddProduct(1, {columns.data() + band * depth, depth}, {rows.data(), inputs},
+                 {covariance.data() + band * inputs, inputs}, end - band, depth, end);
+    }
+  }
+  for (std::size_t row = 0; row < inputs; ++row)
+    for (std::size_t c = row + 1; c < inputs; ++c)
+      covariance[row * inputs + c] = covariance[c * inputs + row];
+}
+
 }  // namespace
 
 Result<> PrincipalAxes(std::span<const float> samples, std::size_t inputs, std::size_t axes,
@@ -63,35 +95,25 @@ Result<> PrincipalAxes(std::span<const float> samples, std::size_t inputs, std::
   if (covariance.empty() || mean.empty() || current.empty() || next.empty())
     return Errc::kInvalidArgument;
 
-  const std::size_t count = samples.size() / inputs;
-  for (std::size_t s = 0; s < count; ++s)
-    for (std::size_t i = 0; i < inputs; ++i) mean[i] += samples[s * inputs + i];
-  for (double& m : mean) m /= static_cast<double>(count);
-  const std::span<double> row = next.first(inputs);  // free until the iteration starts
-  for (std::size_t s = 0; s < count; ++s) {
-    for (std::size_t i = 0; i < inputs; ++i) row[i] = samples[s * inputs + i] - mean[i];
-    for (std::size_t i = 0; i < inputs; ++i)
-      AddScaled(row[i], row.data(), covariance.data() + i * inputs, inputs);
-  }
-
+  MeasureCovariance(samples, mean, current, next, covariance);
   // Start from mixtures of the coordinates' covariances: deterministic, and inside the space. Every
   // coordinate takes part, because some never move; the weights are such that no symmetry of a face
   // cancels a direction.
-  std::ranges::fill(current, 0.0);
   for (std::size_t a = 0; a < axes; ++a)
     for (std::size_t i = 0; i < inputs; ++i)
-      AddScaled(std::cos(static_cast<double>((a + 1) * i * i)), covariance.data() + i * inputs,
-                current.data() + a * inputs, inputs);
-  Orthonormalise(current, inputs, axes);
+      next[a * inputs + i] = std::cos(static_cast<double>((a + 1) * i * i));
+  const auto multiply = [&](std::span<double> from, std::span<double> to) {
+    std::ranges::fill(to, 0.0);
+    AddProduct(1, {from.data(), inputs}, {covariance.data(), inputs}, {to.data(), inputs}, axes,
+               inputs, inputs);
+  };
+  multiply(next, current);
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    std::ranges::fill(next, 0.0);
-    for (std::size_t a = 0; a < axes; ++a)
-      for (std::size_t i = 0; i < inputs; ++i)
-        AddScaled(current[a * inputs + i], covariance.data() + i * inputs, next.data() + a * inputs,
-                  inputs);
+    Orthonormalise(current, inputs, axes, 1);
+    multiply(current, next);
     std::swap(current, next);
-    Orthonormalise(current, inputs, axes);
   }
+  Orthonormalise(current, inputs, axes, 2);
   std::ranges::transform(current, basis.begin(), [](double v) { return static_cast<float>(v); });
   return {};
 }

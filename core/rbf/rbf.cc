@@ -123,8 +123,8 @@ Result<> Rbf::Fit(const RbfConfig& config, const RbfShape& shape, std::span<cons
       !(config.tail_smoothing >= 0))
     return Errc::kInvalidArgument;
   Arena arena(workspace);
-  const auto exact = arena.MakeArray<double>(shape.outputs);
   const auto rounded = arena.MakeArray<float>(shape.outputs);
+  const auto allowed = arena.MakeArray<double>(shape.outputs);
   System system;
   if (auto configured =
           system.Configure(shape, samples, targets, workspace.subspan(arena.used()), weights);
@@ -141,7 +141,7 @@ Result<> Rbf::Fit(const RbfConfig& config, const RbfShape& shape, std::span<cons
   epsilon = static_cast<float>(epsilon);
   if (auto solved = system.Solve(config, epsilon, report); !solved) return solved;
   Store(system, config.kernel);
-  if (!AgreesAtSamples(system, exact, rounded)) {
+  if (!AgreesAtSamples(system, rounded, allowed)) {
     shape_ = {};
     system.Blame(report);
     return Errc::kSingular;
@@ -150,14 +150,14 @@ Result<> Rbf::Fit(const RbfConfig& config, const RbfShape& shape, std::span<cons
   return {};
 }
 
-bool Rbf::AgreesAtSamples(const System& system, std::span<double> exact,
-                          std::span<float> rounded) const noexcept {
+bool Rbf::AgreesAtSamples(const System& system, std::span<float> rounded,
+                          std::span<double> allowed) const noexcept {
+  for (std::size_t o = 0; o < shape_.outputs; ++o)
+    allowed[o] = kMaxRounding * system.largest_target(o);
   for (std::size_t s = 0; s < shape_.samples; ++s) {
-    system.Evaluate(system.sample(s), exact);
     Evaluate(system.sample(s), rounded);
     for (std::size_t o = 0; o < shape_.outputs; ++o)
-      if (!(std::abs(exact[o] - rounded[o]) <= kMaxRounding * system.largest_target(o)))
-        return false;
+      if (!(std::abs(system.AtSample(s, o) - rounded[o]) <= allowed[o])) return false;
   }
   return true;
 }

@@ -63,8 +63,8 @@ class Rbf {
 
  private:
   void Store(const System& system, Kernel kernel) noexcept;
-  bool AgreesAtSamples(const System& system, std::span<double> exact,
-                       std::span<float> rounded) const noexcept;
+  bool AgreesAtSamples(const System& system, std::span<float> rounded,
+                       std::span<double> allowed) const noexcept;
 
   RbfShape capacity_;
   RbfShape shape_;  // of the last Fit; samples == 0: none

@@ -117,21 +117,20 @@ double System::TailTerm(std::span<const float> x, std::size_t column) const noex
 void System::FillMatrix(const RbfConfig& config) noexcept {
   const std::size_t n = shape_.samples;
   const std::size_t m = size();
-  const double sign = SmoothingSign(config.kernel);
   const double scale = epsilon_ * epsilon_;
   for (std::size_t row = 0; row < n; ++row) {
     for (std::size_t c = 0; c <= row; ++c)
       matrix_[row * m + c] = matrix_[c * m + row] =
           Phi(config.kernel, scale * squared_[row * n + c]);
-    const double weight = sample_weights_.empty() ? 1.0 : sample_weights_[row];
-    matrix_[row * m + row] += sign * config.smoothing / weight;
+    matrix_[row * m + row] += SmoothingOf(row);
     for (std::size_t c = n; c < m; ++c)
       matrix_[row * m + c] = matrix_[c * m + row] = TailTerm(sample(row), c - n);
   }
   for (std::size_t row = n; row < m; ++row) {
     for (std::size_t c = n; c < m; ++c) matrix_[row * m + c] = 0;
     // The constant is never damped: it only says where zero is.
-    if (row > n) matrix_[row * m + row] = -sign * config.tail_smoothing * scale;
+    if (row > n)
+      matrix_[row * m + row] = -SmoothingSign(config.kernel) * config.tail_smoothing * scale;
   }
   largest_row_sum_ = largest_element_ = 0;
   for (std::size_t row = 0; row < m; ++row) {
@@ -164,6 +163,7 @@ Result<> System::Solve(const RbfConfig& config, double epsilon, FitReport& repor
   if (config.smoothing == 0 && FindDuplicate(report)) return Errc::kSingular;
   kernel_ = config.kernel;
   epsilon_ = epsilon;
+  smoothing_ = SmoothingSign(config.kernel) * config.smoothing;
   FillMatrix(config);
   if (auto factorised = solver_.Factorise(matrix_, pivots_); !factorised) {
     if (factorised.error() == Errc::kSingular) {
@@ -251,6 +251,10 @@ double System::ExpectedRounding() const noexcept {
     sum += rounding * rounding * squares * static_cast<double>(shape_.samples);
   }
   return sum;
+}
+
+double System::AtSample(std::size_t sample, std::size_t output) const noexcept {
+  return targets_[sample * shape_.outputs + output] - SmoothingOf(sample) * weight(sample, output);
 }
 
 double System::largest_target(std::size_t output) const noexcept {

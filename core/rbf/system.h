@@ -47,6 +47,9 @@ class System {
 
   // The function that was solved for, y(x) in double precision. `x`: inputs; `y`: outputs.
   void Evaluate(std::span<const float> x, std::span<double> y) const noexcept;
+  // The same at a sample, without a sum: the system's own equation says how far smoothing lets the
+  // function pass from the target there. To within the residual of Solve, far below float.
+  double AtSample(std::size_t sample, std::size_t output) const noexcept;
 
   // Blames whatever the system can hardly tell apart; only directly after Solve.
   void Blame(FitReport& report) noexcept;
@@ -69,6 +72,9 @@ class System {
   void MeasureDistances() noexcept;
   double TailTerm(std::span<const float> x, std::size_t column) const noexcept;
   void FillMatrix(const RbfConfig& config) noexcept;
+  double SmoothingOf(std::size_t sample) const noexcept {
+    return sample_weights_.empty() ? smoothing_ : smoothing_ / sample_weights_[sample];
+  }
   double EstimateCondition() noexcept;
   bool FindDuplicate(FitReport& report) const noexcept;
 
@@ -83,6 +89,7 @@ class System {
   std::span<std::uint32_t> pivots_;
   LinearSolver solver_;
   Kernel kernel_ = Kernel::kMultiquadric;
+  double smoothing_ = 0;  // with the kernel's sign
   double epsilon_ = 1, mean_distance_ = 0, largest_row_sum_ = 0, largest_element_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/capacity.h"
+#include "core/rbf/lanes.h"
 
 namespace facewire::retarget {
 namespace {
@@ -14,8 +15,14 @@ namespace {
 constexpr float kTwins = 1e-8F;
 
 float SquaredDistance(std::span<const float> a, std::span<const float> b) noexcept {
-  float sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  rbf::Lanes sums{};
+  std::size_t i = 0;
+  for (; i + rbf::kLanes <= a.size(); i += rbf::kLanes) {
+    const rbf::Lanes d = rbf::LoadLanes(a.data() + i) - rbf::LoadLanes(b.data() + i);
+    sums += d * d;
+  }
+  float sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+  for (; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
   return sum;
 }
 

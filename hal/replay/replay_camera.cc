@@ -6,38 +6,18 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <opencv2/core.hpp>
-#include <opencv2/core/utils/logger.hpp>
-#include <opencv2/videoio.hpp>
+#include <cstring>
 #include <utility>
 
 #include "hal/posix/errors.h"
 #include "hal/posix/unique_fd.h"
+#include "hal/replay/video_decoder.h"
 
 namespace facewire::hal::replay {
 namespace {
 
 constexpr double kAssumedFps = 30;
 constexpr double kHighestFps = 1000;  // what a file without a rate claims is often its time base
-
-// OpenCV and FFmpeg report a damaged file on stderr; this camera reports it by an Errc. FFmpeg's
-// level is read from the environment when the first file is opened, and an operator's own setting
-// wins.
-class QuietDecoder {
- public:
-  QuietDecoder() : before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {
-    constexpr const char* kAvLogQuiet = "-8";
-    ::setenv("OPENCV_FFMPEG_LOGLEVEL", kAvLogQuiet, 0);
-  }
-  ~QuietDecoder() { cv::utils::logging::setLogLevel(before_); }
-  QuietDecoder(const QuietDecoder&) = delete;
-  QuietDecoder& operator=(const QuietDecoder&) = delete;
-
- private:
-  cv::utils::logging::LogLevel before_;
-};
 
 // FFmpeg says only "no" to whatever it cannot open.
 Result<> CheckReadable(const std::string& path) {
@@ -50,57 +30,6 @@ Result<> CheckReadable(const std::string& path) {
 }
 
 }  // namespace
-
-// The file as a sequence of frames, from its beginning, once. Exceptions of OpenCV end here.
-class ReplayCamera::Decoder {
- public:
-  // kUnsupported: not a video, or nothing in it can be decoded.
-  Result<> Open(const std::string& path) {
-    try {
-      const QuietDecoder quiet;
-      // Absolute, because FFmpeg takes "name:rest" for a protocol.
-      const std::string absolute = std::filesystem::absolute(path).string();
-      const bool open = capture_.open(absolute, cv::CAP_FFMPEG,
-                                      {cv::CAP_PROP_HW_ACCELERATION, cv::VIDEO_ACCELERATION_NONE});
-      if (!open || !capture_.read(frame_) || frame_.empty() || frame_.type() != CV_8UC3) {
-        return Errc::kUnsupported;
-      }
-    } catch (const std::exception&) {  // OpenCV's and the file system's
-      return Errc::kUnsupported;
-    }
-    decoded_ = 1;
-    return {};
-  }
-
-  int width_px() const { return frame_.cols; }
-  int height_px() const { return frame_.rows; }
-  double fps() const { return capture_.get(cv::CAP_PROP_FPS); }
-  double frames_in_file() const { return capture_.get(cv::CAP_PROP_FRAME_COUNT); }
-  // Frames decoded so far; the last of them is current().
-  std::uint64_t decoded() const { return decoded_; }
-  const cv::Mat& current() const { return frame_; }
-
-  // False at the end. `wanted` false passes over a frame without the work of converting it.
-  bool Advance(bool wanted) {
-    try {
-      const QuietDecoder quiet;
-      if (!capture_.grab()) return false;
-      if (wanted) {
-        const cv::Size size = frame_.size();
-        if (!capture_.retrieve(frame_) || frame_.size() != size) return false;
-      }
-    } catch (const cv::Exception&) {
-      return false;
-    }
-    ++decoded_;
-    return true;
-  }
-
- private:
-  cv::VideoCapture capture_;
-  cv::Mat frame_;
-  std::uint64_t decoded_ = 0;
-};
 
 ReplayCamera::ReplayCamera(ReplayConfig config, Clock& clock)
     : config_(std::move(config)), clock_(clock) {}
@@ -118,7 +47,7 @@ Result<> ReplayCamera::Start() {
   if (ready && held) ready = DecodeAhead();
   if (!ready) {
     Stop();
-    reason_ = Reason(ready.error());
+    if (reason_.empty()) reason_ = Reason(ready.error());
     return ready;
   }
   next_ = 0;
@@ -150,16 +79,18 @@ std::string ReplayCamera::Reason(Errc error) const {
 
 Result<> ReplayCamera::StartDecoding() {
   if (Result<> readable = CheckReadable(config_.path); !readable) return readable;
-  decoder_ = std::make_unique<Decoder>();
+  decoder_ = LoadVideoDecoder(reason_);
+  if (decoder_ == nullptr) return Errc::kNotFound;
   if (Result<> open = decoder_->Open(config_.path); !open) return open;
-  info_.width_px = decoder_->width_px();
-  info_.height_px = decoder_->height_px();
+  const ImageView first = decoder_->Picture();
+  info_.width_px = first.width_px;
+  info_.height_px = first.height_px;
   info_.frame_bytes =
       3 * static_cast<std::size_t>(info_.width_px) * static_cast<std::size_t>(info_.height_px);
-  info_.fps = decoder_->fps();
+  info_.fps = decoder_->ClaimedFps();
   info_.fps_assumed = !(info_.fps > 0 && info_.fps <= kHighestFps);
   if (info_.fps_assumed) info_.fps = kAssumedFps;
-  const double claim = decoder_->frames_in_file();
+  const double claim = decoder_->ClaimedFrames();
   info_.frames_in_file = claim >= 1 && claim < 1e12 ? static_cast<std::uint64_t>(claim) : 0;
   return {};
 }
@@ -170,9 +101,14 @@ Result<> ReplayCamera::DecodeAhead() {
   if (info_.frames_in_file > 0) room = std::min<std::size_t>(room, info_.frames_in_file);
   info_.block_bytes = room * info_.frame_bytes;
   block_ = std::make_unique_for_overwrite<std::uint8_t[]>(info_.block_bytes);
+  const std::size_t row_bytes = 3 * static_cast<std::size_t>(info_.width_px);
+  std::uint8_t* to = block_.get();
   do {
-    std::uint8_t* at = block_.get() + info_.frames_held * info_.frame_bytes;
-    decoder_->current().copyTo(cv::Mat(info_.height_px, info_.width_px, CV_8UC3, at));
+    const Plane pixels = decoder_->Picture().planes[0];
+    const std::uint8_t* from = pixels.data;
+    for (int row = 0; row < info_.height_px; ++row, from += pixels.stride_bytes, to += row_bytes) {
+      std::memcpy(to, from, row_bytes);
+    }
     ++info_.frames_held;
   } while (info_.frames_held < room && decoder_->Advance(true));
   decoder_.reset();  // and its threads
@@ -195,8 +131,7 @@ Result<Plane> ReplayCamera::DecodeUpTo(std::uint64_t n) {
     }
     ++next_;
   }
-  const cv::Mat& picture = decoder_->current();
-  return Plane{.data = picture.data, .stride_bytes = static_cast<int>(picture.step[0])};
+  return decoder_->Picture().planes[0];
 }
 
 Result<Frame> ReplayCamera::Acquire(std::chrono::milliseconds timeout) {

@@ -14,6 +14,8 @@
 
 namespace facewire::hal::replay {
 
+class VideoDecoder;
+
 struct ReplayConfig {
   std::string path;  // a video file of any kind that FFmpeg reads
   Pace pace = Pace::kRealTime;
@@ -45,9 +47,10 @@ class ReplayCamera final : public Camera {
   ReplayCamera(ReplayConfig config, Clock& clock);
   ~ReplayCamera() override;
 
-  // kNotFound, kPermission; kUnsupported: not a video, or not a single frame of it can be decoded;
-  // kFull: memory_bytes does not hold one frame (info().frame_bytes says what it takes);
-  // kInvalidArgument: kPingPong without a block; kIo.
+  // kNotFound (the file, or what decodes videos: reason() says which), kPermission; kUnsupported:
+  // not a video, or not a single frame of it can be decoded; kFull: memory_bytes does not hold one
+  // frame (info().frame_bytes says what it takes); kInvalidArgument: kPingPong without a block;
+  // kIo.
   Result<> Start() override;
   // kTimeout (real time: the next frame is not due), kEnd, kDisconnected (not started), kIo.
   Result<Frame> Acquire(std::chrono::milliseconds timeout) override;
@@ -58,8 +61,6 @@ class ReplayCamera final : public Camera {
   const ReplayInfo& info() const noexcept { return info_; }
 
  private:
-  class Decoder;  // OpenCV's types stay in the source file
-
   Result<> StartDecoding();
   Result<> DecodeAhead();
   Result<Plane> DecodeUpTo(std::uint64_t n);
@@ -69,7 +70,7 @@ class ReplayCamera final : public Camera {
   Clock& clock_;
   ReplayInfo info_;
   std::string reason_;                     // of the last Start
-  std::unique_ptr<Decoder> decoder_;       // while a streamed recording plays
+  std::unique_ptr<VideoDecoder> decoder_;  // while a streamed recording plays
   std::unique_ptr<std::uint8_t[]> block_;  // while a recording in memory plays
   std::optional<Pacer> pacer_;             // while started
   std::uint64_t next_ = 0;

@@ -50,5 +50,6 @@ class Buttons(StillFaceTest):
         mark = self.line.mark()
         self.line.wait_for("ten poses", lambda pose: self.line.mark() >= mark + 10, PATIENCE, mark)
         self.assertEqual({pose.state for pose in self.line.since(mark)}, {"stopped"})
+        pressed = self.line.mark()
         self.panel.press(LONG_PRESS_S)
-        self.line.wait_for_state("starting", timeout=PATIENCE)
+        self.line.wait_for_state("starting", timeout=PATIENCE, since=pressed)

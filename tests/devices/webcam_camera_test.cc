@@ -186,7 +186,9 @@ TEST_P(WebcamTest, BrokenJpegsAreDroppedAndCounted) {
   const std::unique_ptr<hal::Camera> camera = Make();
   StartAgain(*camera);
   ExpectFrames(*camera, 1);
-  webcam.Tell("rate 5");  // slow enough that none of them is overtaken
+  // Slow enough that none of them is overtaken, once the quick ones before are through.
+  webcam.Tell("rate 2");
+  ExpectFrames(*camera, 4);
   webcam.Tell("damage 3");
   ExpectFrames(*camera, 5);
   EXPECT_EQ(camera->counts().damaged, 3U);

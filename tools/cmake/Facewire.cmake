@@ -13,6 +13,13 @@ endif()
 
 include(GNUInstallDirs)
 
+# Modules, which a program loads when it needs them: where they are built and installed, and so where programs look.
+set(FACEWIRE_MODULES "${PROJECT_BINARY_DIR}/modules")
+set(FACEWIRE_INSTALLED_MODULES lib/facewire)
+set(CMAKE_BUILD_RPATH "${FACEWIRE_MODULES}")
+file(RELATIVE_PATH from_programs "/${CMAKE_INSTALL_BINDIR}" "/${FACEWIRE_INSTALLED_MODULES}")
+set(CMAKE_INSTALL_RPATH "$ORIGIN/${from_programs}")
+
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -26,6 +33,9 @@ if(FACEWIRE_SANITIZE)
   add_compile_options(-fsanitize=${FACEWIRE_SANITIZE} -fno-sanitize-recover=all
                       -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${FACEWIRE_SANITIZE})
+  # A sanitizer's library comes between a program and dlopen, which then asks for that library's RUNPATH; RPATH is the
+  # program's for every caller.
+  add_link_options(-Wl,--disable-new-dtags)
   # GCC 12 finds std::regex and std::function uninitialised in instrumented code; they are not.
   add_compile_options(-Wno-maybe-uninitialized)
 else()

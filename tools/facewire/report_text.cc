@@ -80,8 +80,9 @@ std::optional<std::string> ReportText(std::string_view json) {
     text += "line     none\n";
   } else {
     text += "line     " + get("line") + ": " + get("line_state") + ", " + get("poses_sent") +
-            " poses, " + get("poses_dropped") + " not taken, " + get("line_errors") +
-            " errors, lost " + get("line_losses") + " times\n";
+            " poses, " + get("poses_dropped") + " not taken, " + get("line_bytes") + " bytes, " +
+            get("line_errors") + " errors, lost " + get("line_losses") + " times, opened again " +
+            get("line_reopens") + " times\n";
   }
   text += "face     lost " + get("losses") + " times\n";
   text += "neutral  " + get("neutral") + ", in " + get("state_folder") + "\n";

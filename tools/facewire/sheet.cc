@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +19,7 @@
 #include "tools/facewire/recording.h"
 #include "tools/facewire/training_sheet.h"
 #include "tools/sheet/pick.h"
+#include "tools/sheet/png.h"
 
 namespace facewire::tools {
 namespace {
@@ -122,9 +122,7 @@ std::vector<Moment> TakeMoments(const std::vector<RigPose>& poses, const std::ve
 }
 
 void WritePng(const cv::Mat& picture, OutputFile& out) {
-  std::vector<unsigned char> png;
-  if (!cv::imencode(".png", picture, png)) throw app::Failure("encoding the picture failed");
-  out.Write({reinterpret_cast<const char*>(png.data()), png.size()});
+  out.Write(EncodePng(picture));
   out.Commit();
 }
 

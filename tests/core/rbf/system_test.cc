@@ -35,6 +35,28 @@ TEST_P(SystemGolden, AgreesWithScipyToNineDigits) {
   }
 }
 
+TEST_P(SystemGolden, AtASampleItsEquationSaysWhatTheSumSays) {
+  const golden::Case& expected = GetParam();
+  const std::size_t samples = golden::kSamples.size() / 2;
+  const RbfShape shape{samples, 2, 2, expected.tail};
+  std::vector<float> weights(samples, 1.0F);
+  weights[1] = 3;
+  std::vector<std::byte> workspace(System::WorkspaceBytes(shape));
+  System system;
+  ASSERT_TRUE(system.Configure(shape, golden::kSamples, golden::kTargets, workspace, weights));
+  FitReport report;
+  ASSERT_TRUE(system.Solve({.kernel = expected.kernel,
+                            .tail = expected.tail,
+                            .smoothing = expected.smoothing,
+                            .tail_smoothing = expected.tail_smoothing},
+                           static_cast<double>(expected.epsilon), report));
+  for (std::size_t s = 0; s < samples; ++s) {
+    std::array<double, 2> y{};
+    system.Evaluate(system.sample(s), y);
+    for (std::size_t o = 0; o < 2; ++o) EXPECT_NEAR(system.AtSample(s, o), y[o], 1e-9) << s;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scipy, SystemGolden, testing::ValuesIn(golden::kCases), golden::NameOf);
 
 TEST(Phi, IsZeroForAThinPlateAtItsCentre) {

@@ -1,0 +1,18 @@
+# A program is not linked with libraries that it can do without at start.
+# cmake -DREADELF=... -DPROGRAM=... -DFORBIDDEN=REGEX -P linked_libraries.cmake
+execute_process(COMMAND ${READELF} --dynamic --wide ${PROGRAM} OUTPUT_VARIABLE dynamic RESULT_VARIABLE status)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "${READELF} failed on ${PROGRAM}")
+endif()
+string(REGEX MATCHALL "\\(NEEDED\\)[^\n]*" needed "${dynamic}")
+list(LENGTH needed count)
+if(count EQUAL 0)
+  message(FATAL_ERROR "${PROGRAM} names no library at all")
+endif()
+set(bad "${needed}")
+list(FILTER bad INCLUDE REGEX "${FORBIDDEN}")
+if(bad)
+  list(JOIN bad "\n  " bad)
+  message(FATAL_ERROR "${PROGRAM} loads at every start what it can do without:\n  ${bad}")
+endif()
+message("${PROGRAM}: ${count} libraries, none of them ${FORBIDDEN}")
