@@ -157,6 +157,61 @@ Text ReadText(Reader& r) noexcept {
   return m;
 }
 
+ServoSetup ReadServoSetup(Reader& r) noexcept {
+  ServoSetup m;
+  m.setup_id = r.Integer<std::uint32_t>();
+  m.hold_ms = r.Integer<std::uint32_t>();
+  m.ease_ms = r.Integer<std::uint32_t>();
+  m.release_ms = r.Integer<std::uint32_t>();
+  r.Require(m.setup_id != 0 && m.servos.try_resize(r.Integer<std::uint8_t>()));
+  for (ServoLimits& servo : m.servos) {
+    servo.min_quarter_us = r.Integer<std::uint16_t>();
+    servo.neutral_quarter_us = r.Integer<std::uint16_t>();
+    servo.max_quarter_us = r.Integer<std::uint16_t>();
+    servo.speed_us_s = r.Integer<std::uint16_t>();
+    servo.ramp_speed_us_s = r.Integer<std::uint16_t>();
+    servo.ramp_acceleration_10us_s2 = r.Integer<std::uint16_t>();
+    r.Require(IsValid(servo));
+  }
+  return m;
+}
+
+void ReadPulses(Reader& r, InlineVector<std::uint16_t, kMaxServos>& quarter_us) noexcept {
+  r.Require(quarter_us.try_resize(r.Integer<std::uint8_t>()));
+  for (std::uint16_t& width : quarter_us) {
+    width = r.Integer<std::uint16_t>();
+    r.Require(IsPulseOrNone(width));
+  }
+}
+
+ServoPulses ReadServoPulses(Reader& r) noexcept {
+  ServoPulses m;
+  m.setup_id = r.Integer<std::uint32_t>();
+  m.stop = (r.Integer<std::uint8_t>() & 1U) != 0;
+  ReadPulses(r, m.quarter_us);
+  return m;
+}
+
+ReceiverStatus ReadReceiverStatus(Reader& r) noexcept {
+  ReceiverStatus m;
+  m.setup_id = r.Integer<std::uint32_t>();
+  const auto state = static_cast<ReceiverState>(r.Integer<std::uint8_t>());
+  m.state = state <= ReceiverState::kStopped ? state : ReceiverState::kWaiting;
+  m.capacity = r.Integer<std::uint8_t>();
+  m.version_major = r.Integer<std::uint8_t>();
+  m.version_minor = r.Integer<std::uint8_t>();
+  m.reset_causes = r.Integer<std::uint8_t>();
+  m.supply_mv = r.Integer<std::uint16_t>();
+  m.uptime_ms = r.Integer<std::uint32_t>();
+  m.frames = r.Integer<std::uint32_t>();
+  m.damaged = r.Integer<std::uint32_t>();
+  m.lost = r.Integer<std::uint32_t>();
+  m.refused = r.Integer<std::uint32_t>();
+  r.Require(m.capacity <= kMaxServos);
+  ReadPulses(r, m.quarter_us);
+  return m;
+}
+
 Result<Message> ReadPayload(std::uint8_t type, std::span<const byte> payload) noexcept {
   Reader r(payload);
   const auto checked = [&r](const auto& message) -> Result<Message> {
@@ -180,6 +235,12 @@ Result<Message> ReadPayload(std::uint8_t type, std::span<const byte> payload) no
       return checked(ReadCommand(r));
     case MessageType::kText:
       return checked(ReadText(r));
+    case MessageType::kServoSetup:
+      return checked(ReadServoSetup(r));
+    case MessageType::kServoPulses:
+      return checked(ReadServoPulses(r));
+    case MessageType::kReceiverStatus:
+      return checked(ReadReceiverStatus(r));
   }
   return Errc::kUnsupported;
 }

@@ -195,6 +195,62 @@ Result<std::span<const byte>> Encoder::Encode(const Text& m, std::span<byte> out
   return Finish(w);
 }
 
+Result<std::span<const byte>> Encoder::Encode(const ServoSetup& m, std::span<byte> out) noexcept {
+  Writer w(out, MessageType::kServoSetup, sequence_);
+  w.Integer(m.setup_id);
+  w.Integer(m.hold_ms);
+  w.Integer(m.ease_ms);
+  w.Integer(m.release_ms);
+  w.Integer(static_cast<std::uint8_t>(m.servos.size()));
+  w.Require(m.setup_id != 0);
+  for (const ServoLimits& servo : m.servos) {
+    w.Integer(servo.min_quarter_us);
+    w.Integer(servo.neutral_quarter_us);
+    w.Integer(servo.max_quarter_us);
+    w.Integer(servo.speed_us_s);
+    w.Integer(servo.ramp_speed_us_s);
+    w.Integer(servo.ramp_acceleration_10us_s2);
+    w.Require(IsValid(servo));
+  }
+  return Finish(w);
+}
+
+Result<std::span<const byte>> Encoder::Encode(const ServoPulses& m, std::span<byte> out) noexcept {
+  Writer w(out, MessageType::kServoPulses, sequence_);
+  w.Integer(m.setup_id);
+  w.Integer(static_cast<std::uint8_t>(m.stop ? 1 : 0));
+  w.Integer(static_cast<std::uint8_t>(m.quarter_us.size()));
+  for (const std::uint16_t width : m.quarter_us) {
+    w.Integer(width);
+    w.Require(IsPulseOrNone(width));
+  }
+  return Finish(w);
+}
+
+Result<std::span<const byte>> Encoder::Encode(const ReceiverStatus& m,
+                                              std::span<byte> out) noexcept {
+  Writer w(out, MessageType::kReceiverStatus, sequence_);
+  w.Integer(m.setup_id);
+  w.Integer(static_cast<std::uint8_t>(m.state));
+  w.Integer(m.capacity);
+  w.Integer(m.version_major);
+  w.Integer(m.version_minor);
+  w.Integer(m.reset_causes);
+  w.Integer(m.supply_mv);
+  w.Integer(m.uptime_ms);
+  w.Integer(m.frames);
+  w.Integer(m.damaged);
+  w.Integer(m.lost);
+  w.Integer(m.refused);
+  w.Integer(static_cast<std::uint8_t>(m.quarter_us.size()));
+  w.Require(m.capacity <= kMaxServos);
+  for (const std::uint16_t width : m.quarter_us) {
+    w.Integer(width);
+    w.Require(IsPulseOrNone(width));
+  }
+  return Finish(w);
+}
+
 Result<std::span<const byte>> Encoder::Encode(const Message& message,
                                               std::span<byte> out) noexcept {
   return std::visit([&](const auto& m) noexcept { return Encode(m, out); }, message);

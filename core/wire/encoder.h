@@ -15,7 +15,8 @@ class Encoder {
  public:
   // Writes the frame, with both of its delimiters, to the front of `out` and returns that part.
   // kFull: `out` is too small (k...FrameBytes in message.h always suffices). kInvalidArgument: a
-  // number that is not finite, min <= neutral <= max does not hold, or a bone index above 254.
+  // number that is not finite, min <= neutral <= max does not hold, a bone index above 254, or a
+  // rule of core/wire/servo_message.h.
   // After an error nothing may be sent, and the next frame gets the number that this one would have
   // had.
   Result<std::span<const std::byte>> Encode(const RigHeader&, std::span<std::byte> out) noexcept;
@@ -29,6 +30,10 @@ class Encoder {
                                             std::span<std::byte> out) noexcept;
   Result<std::span<const std::byte>> Encode(const Command&, std::span<std::byte> out) noexcept;
   Result<std::span<const std::byte>> Encode(const Text&, std::span<std::byte> out) noexcept;
+  Result<std::span<const std::byte>> Encode(const ServoSetup&, std::span<std::byte> out) noexcept;
+  Result<std::span<const std::byte>> Encode(const ServoPulses&, std::span<std::byte> out) noexcept;
+  Result<std::span<const std::byte>> Encode(const ReceiverStatus&,
+                                            std::span<std::byte> out) noexcept;
   // Whichever the message is.
   Result<std::span<const std::byte>> Encode(const Message&, std::span<std::byte> out) noexcept;
 

@@ -74,4 +74,26 @@ const char* Name(ChannelKind kind) noexcept {
   return "parameter";
 }
 
+const char* Name(ReceiverState state) noexcept {
+  switch (state) {
+    case ReceiverState::kWaiting:
+      return "waiting";
+    case ReceiverState::kRamping:
+      return "ramping";
+    case ReceiverState::kFollowing:
+      return "following";
+    case ReceiverState::kHolding:
+      return "holding";
+    case ReceiverState::kEasing:
+      return "easing";
+    case ReceiverState::kResting:
+      return "resting";
+    case ReceiverState::kReleased:
+      return "released";
+    case ReceiverState::kStopped:
+      return "stopped";
+  }
+  return "waiting";
+}
+
 }  // namespace facewire::wire

@@ -13,6 +13,7 @@
 #include "core/base/time.h"
 #include "core/rig/rig.h"
 #include "core/service_state.h"
+#include "core/wire/servo_message.h"
 
 // The messages of the native protocol as plain structs. Their bytes: core/wire/README.md.
 namespace facewire::wire {
@@ -26,7 +27,10 @@ enum class MessageType : std::uint8_t {
   kStatus = 0x11,
   kAcknowledgement = 0x12,
   kText = 0x13,
+  kServoSetup = 0x14,
+  kServoPulses = 0x15,
   kCommand = 0x80,
+  kReceiverStatus = 0x81,
 };
 
 // How many parts describe the rig. rig_id (here and below) names one description: poses repeat it,
@@ -146,8 +150,9 @@ struct Text {
   InlineVector<char, kMaxTextBytes> text{};
 };
 
-using Message = std::variant<RigHeader, BoneDescription, ChannelDescription, Pose, Status,
-                             Acknowledgement, Command, Text>;
+using Message =
+    std::variant<RigHeader, BoneDescription, ChannelDescription, Pose, Status, Acknowledgement,
+                 Command, Text, ServoSetup, ServoPulses, ReceiverStatus>;
 static_assert(std::is_trivially_copyable_v<Message>);
 
 const char* Name(CommandCode code) noexcept;      // "calibrate_neutral"; "unknown" for a later one
@@ -179,8 +184,15 @@ inline constexpr std::size_t kAcknowledgementFrameBytes =
     MaxFrameBytes(kMaxAcknowledgementPayloadBytes);
 inline constexpr std::size_t kCommandFrameBytes = MaxFrameBytes(kMaxCommandPayloadBytes);
 inline constexpr std::size_t kTextFrameBytes = MaxFrameBytes(kMaxTextPayloadBytes);
+inline constexpr std::size_t kServoSetupFrameBytes =
+    MaxFrameBytes(ServoSetupPayloadBytes(kMaxServos));
+inline constexpr std::size_t kServoPulsesFrameBytes =
+    MaxFrameBytes(ServoPulsesPayloadBytes(kMaxServos));
+inline constexpr std::size_t kReceiverStatusFrameBytes =
+    MaxFrameBytes(ReceiverStatusPayloadBytes(kMaxServos));
 inline constexpr std::size_t kMaxFrameBytes = MaxFrameBytes(kMaxPayloadBytes);  // of any message
 static_assert(PosePayloadBytes(kMaxChannels) <= kMaxPayloadBytes);
+static_assert(ServoSetupPayloadBytes(kMaxServos) <= kMaxPayloadBytes);
 
 }  // namespace facewire::wire
 

@@ -38,6 +38,12 @@ class Object {
     const std::string_view digits = text;
     return std::string(digits) + (digits.find_first_of(".e") == digits.npos ? ".0" : "");
   }
+  template <class Values>
+  Object& List(const char* key, const Values& values) {
+    std::string list;
+    for (const auto value : values) list += (list.empty() ? "" : ", ") + std::to_string(value);
+    return Raw(key, "[" + list + "]");
+  }
   std::string Done() const { return "{" + text_ + "}"; }
 
  private:
@@ -66,9 +72,7 @@ struct AddFields {
   void operator()(const Pose& m) const {
     o.Text("type", "pose").Int("rig_id", m.rig_id).Int("frame_seq", m.frame_seq);
     o.At("captured_us", m.captured).Int("age_us", m.age_us).Int("state", static_cast<int>(m.state));
-    std::string steps;
-    for (std::uint16_t step : m.values) steps += (steps.empty() ? "" : ", ") + std::to_string(step);
-    o.Raw("steps", "[" + steps + "]");
+    o.List("steps", m.values);
   }
   void operator()(const Status& m) const {
     o.Text("type", "status").Int("rig_id", m.rig_id).Int("state", static_cast<int>(m.state));
@@ -85,6 +89,32 @@ struct AddFields {
   void operator()(const Text& m) const {
     o.Text("type", "text").Int("id", m.id);
     o.Text("text", {m.text.begin(), m.text.size()});
+  }
+  void operator()(const ServoSetup& m) const {
+    o.Text("type", "servo_setup").Int("setup_id", m.setup_id).Int("hold_ms", m.hold_ms);
+    o.Int("ease_ms", m.ease_ms).Int("release_ms", m.release_ms);
+    std::string servos;
+    for (const ServoLimits& s : m.servos) {
+      Object servo;
+      servo.Int("min", s.min_quarter_us).Int("neutral", s.neutral_quarter_us);
+      servo.Int("max", s.max_quarter_us).Int("speed", s.speed_us_s);
+      servo.Int("ramp_speed", s.ramp_speed_us_s);
+      servo.Int("ramp_acceleration", s.ramp_acceleration_10us_s2);
+      servos += (servos.empty() ? "" : ", ") + servo.Done();
+    }
+    o.Raw("servos", "[" + servos + "]");
+  }
+  void operator()(const ServoPulses& m) const {
+    o.Text("type", "servo_pulses").Int("setup_id", m.setup_id).Int("stop", m.stop ? 1 : 0);
+    o.List("quarter_us", m.quarter_us);
+  }
+  void operator()(const ReceiverStatus& m) const {
+    o.Text("type", "receiver_status").Int("setup_id", m.setup_id);
+    o.Int("state", static_cast<int>(m.state)).Int("capacity", m.capacity);
+    o.Int("version_major", m.version_major).Int("version_minor", m.version_minor);
+    o.Int("reset_causes", m.reset_causes).Int("supply_mv", m.supply_mv);
+    o.Int("uptime_ms", m.uptime_ms).Int("frames", m.frames).Int("damaged", m.damaged);
+    o.Int("lost", m.lost).Int("refused", m.refused).List("quarter_us", m.quarter_us);
   }
   void operator()(const Command& m) const {
     o.Text("type", "command").Int("id", m.id).Int("code", static_cast<int>(m.code));

@@ -15,9 +15,11 @@ import sys
 import zlib
 
 MAX_INSIDE = 1024  # header, payload and CRC
-MAX_BONES, MAX_CHANNELS, MAX_NAME, MAX_TEXT = 80, 240, 31, 480
+MAX_BONES, MAX_CHANNELS, MAX_NAME, MAX_TEXT, MAX_SERVOS = 80, 240, 31, 480, 64
+MIN_PULSE, MAX_PULSE = 2000, 10000  # quarters of a microsecond
 KINDS = ["parameter", "position_x", "position_y", "position_z", "pitch", "yaw", "roll"]
 FAULT = 7
+LAST_RECEIVER_STATE = 7
 CODES_WITH_VALUE = {7}
 RESULTS_WITH_MEASURE = range(5, 10)
 
@@ -113,9 +115,46 @@ def read_text(p):
     return {"type": "text", "id": ident, "text": text.decode("utf-8")}
 
 
+def read_servo_setup(p):
+    setup_id, hold, ease, release, count = p.take("IIIIB")
+    require(setup_id != 0 and count <= MAX_SERVOS)
+    names = ["min", "neutral", "max", "speed", "ramp_speed", "ramp_acceleration"]
+    servos = [dict(zip(names, p.take("HHHHHH"))) for _ in range(count)]
+    for s in servos:
+        require(MIN_PULSE <= s["min"] <= s["neutral"] <= s["max"] <= MAX_PULSE)
+        require(s["speed"] and s["ramp_speed"] and s["ramp_acceleration"])
+    return {"type": "servo_setup", "setup_id": setup_id, "hold_ms": hold, "ease_ms": ease,
+            "release_ms": release, "servos": servos}
+
+
+def read_widths(p):
+    count = p.take("B")
+    require(count <= MAX_SERVOS)
+    widths = [p.take("H") for _ in range(count)]
+    require(all(w == 0 or MIN_PULSE <= w <= MAX_PULSE for w in widths))
+    return widths
+
+
+def read_servo_pulses(p):
+    setup_id, flags = p.take("IB")
+    return {"type": "servo_pulses", "setup_id": setup_id, "stop": flags & 1,
+            "quarter_us": read_widths(p)}
+
+
+def read_receiver_status(p):
+    names = ["setup_id", "state", "capacity", "version_major", "version_minor", "reset_causes",
+             "supply_mv", "uptime_ms", "frames", "damaged", "lost", "refused"]
+    message = dict(zip(names, p.take("IBBBBBHIIIII")))
+    require(message["capacity"] <= MAX_SERVOS)
+    if message["state"] > LAST_RECEIVER_STATE:
+        message["state"] = 0
+    return {"type": "receiver_status", **message, "quarter_us": read_widths(p)}
+
+
 READERS = {0x01: read_rig_header, 0x02: read_bone, 0x03: read_channel, 0x10: read_pose,
            0x11: read_status, 0x12: read_acknowledgement, 0x13: read_text,
-           0x80: read_command}
+           0x14: read_servo_setup, 0x15: read_servo_pulses, 0x80: read_command,
+           0x81: read_receiver_status}
 
 
 def cobs_decode(piece):

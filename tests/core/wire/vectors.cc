@@ -10,24 +10,12 @@
 #include "core/wire/pose.h"
 #include "core/wire/rig_description.h"
 #include "tests/core/wire/test_rig.h"
+#include "tests/core/wire/vector_line.h"
 
 namespace facewire::wire {
 namespace {
 
 constexpr std::uint32_t kId = 0x1234ABCD;
-
-// One line with its encoder: frames are numbered from 0.
-class Line {
- public:
-  Bytes Send(const Message& message) {
-    std::array<std::byte, kMaxFrameBytes> buffer;
-    const auto frame = encoder_.Encode(message, buffer).value();
-    return {frame.begin(), frame.end()};
-  }
-
- private:
-  Encoder encoder_;
-};
 
 Pose SomePose(std::size_t channels, std::uint16_t step) {
   Pose pose{.rig_id = kId,
@@ -232,6 +220,11 @@ void AddLaterVersions(std::vector<Vector>& all) {
       RawFrame(kVersion, 0x80, 0, MakeBytes({1, 0, 0xC8})));
   add("unknown_state", "A pose in a state of a later sender: read as fault (7)",
       RawFrame(kVersion, 0x10, 0, Bytes(20, std::byte{0}) + MakeBytes({8, 0})));
+  add("unknown_flags", "Servo pulses with flags and a field of a later sender: ignored",
+      RawFrame(kVersion, 0x15, 0, MakeBytes({1, 0, 0, 0, 0xFE, 1, 0x70, 0x17, 1, 2, 3})));
+  add("unknown_receiver_state",
+      "A receiver's status in a state of a later one: read as waiting (0)",
+      RawFrame(kVersion, 0x81, 0, MakeBytes({0, 0, 0, 0, 8, 12}) + Bytes(26, std::byte{0})));
   add("unknown_kind", "A channel of a kind of a later sender: read as parameter",
       RawFrame(
           kVersion, 0x03, 0,
@@ -342,6 +335,7 @@ std::vector<Vector> AllVectors() {
   AddLaterVersions(all);
   AddFraming(all);
   AddDamage(all);
+  AddServos(all);
   return all;
 }
 
