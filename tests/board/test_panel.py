@@ -3,7 +3,8 @@ from case import PATIENCE, StillFaceTest
 from machine import wait_until
 from panel import Panel
 
-# A picture takes seconds here, and between two pictures nobody looks at the button.
+# A picture takes a second or more here, and between two pictures nobody looks at the button. A press has to be seen twice
+# to count as one and to end before two seconds to be a short one: not every short press is seen.
 SHORT_PRESS_S, LONG_PRESS_S = 1.2, 12
 
 
@@ -23,9 +24,16 @@ class Buttons(StillFaceTest):
 
     def test_02_a_short_press_calibrates(self):
         journal = self.service.journal_mark()
-        self.panel.press(SHORT_PRESS_S)
-        said = self.service.wait_for_words("neutral", PATIENCE, journal)
-        self.figure(said.strip().splitlines()[-1])
+        for presses in range(1, 9):
+            self.panel.press(SHORT_PRESS_S)
+            try:
+                said = self.service.wait_for_words("neutral", 30, journal)
+                break
+            except TimeoutError:  # nobody looked twice while it was down
+                continue
+        else:
+            self.fail(f"{presses} presses, and no word of a neutral")
+        self.figure(f"{said.strip().splitlines()[-1]}; presses until one was seen: {presses}")
 
     def test_03_an_open_estop_stops_all_motion_within_a_tick(self):
         mark = self.line.mark()
