@@ -31,7 +31,7 @@ const char* Name(ServiceState state) noexcept {
 namespace state {
 namespace {
 
-// Ticks come at 20 Hz or faster, even without a camera.
+// Ticks come at 20 Hz or faster, even without a camera, unless a picture takes longer than that.
 constexpr Duration kLongestTick = std::chrono::milliseconds(500);
 // A picture may be so late before it counts as missing: cameras that see little light slow down.
 constexpr Duration kLatePicture = std::chrono::milliseconds(200);
@@ -91,8 +91,11 @@ Outputs StateMachine::Update(const Inputs& in) noexcept {
 
   const ServiceState next = Next(in);
   // A face after a long gap between ticks (the process was suspended) is found anew, without a
-  // jump.
-  if (next != state_ || (next == ServiceState::kTracking && gap > kLongestTick)) Enter(next);
+  // jump. Where one long gap follows the other the computer is slow, and the face was not lost.
+  const bool late = gap > kLongestTick;
+  const bool woke = late && !late_;
+  late_ = late;
+  if (next != state_ || (next == ServiceState::kTracking && woke)) Enter(next);
   if (next == ServiceState::kTracking && in.sight == Sight::kFace) last_face_ = now_;
 
   Outputs out;

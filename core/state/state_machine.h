@@ -81,6 +81,7 @@ class StateMachine {
   bool started_ = false;  // a first tick has set the times below
   bool quitting_ = false;
   Time now_{};
+  bool late_ = false;  // the last gap between ticks was a long one
   bool blend_begins_ = false;
   Time blend_began_{};
   Duration blend_time_{};

@@ -280,6 +280,19 @@ TEST(StateMachine, FindsAFaceAnewAfterALongGapBetweenTicks) {
   EXPECT_FLOAT_EQ(out.blend, 0);
 }
 
+TEST(StateMachine, FollowsAFaceOnAComputerThatTakesASecondForAPicture) {
+  Context c;
+  c.Bring(S::kTracking);
+  Outputs out;
+  for (int i = 0; i < 10; ++i) {
+    c.now += milliseconds(1000);
+    out = c.Call(Context::kFace);
+    EXPECT_EQ(out.state, S::kTracking) << i;
+    EXPECT_EQ(out.blend_begins, i == 0) << i;
+  }
+  EXPECT_FLOAT_EQ(out.blend, 1);
+}
+
 TEST(StateMachine, IgnoresJitterOfTicks) {
   Context c;
   c.Bring(S::kTracking);
