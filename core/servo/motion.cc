@@ -132,11 +132,12 @@ void Motion::Drop(std::size_t i) noexcept {
 
 void Motion::Engage(std::size_t i, bool crawl) noexcept {
   Channel& channel = channels_[i];
-  if (channel.actuator.reads_back) {
-    if (!channel.read || clock_ - *channel.read > kFreshReading) return;
+  if (channel.read && clock_ - *channel.read <= kFreshReading) {
     const double astray = std::abs(channel.reading - axes_[i].command());
     axes_[i].Place(channel.reading);
     crawl = crawl || astray > kAstray * channel.range;
+  } else if (channel.actuator.reads_back) {
+    return;
   } else {
     axes_[i].Place(axes_[i].command());
   }

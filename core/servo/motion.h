@@ -23,7 +23,9 @@ namespace facewire::servo {
 // What its bus makes of a servo.
 struct Actuator {
   float step = 1;           // of its commands, in the servo's unit: 0.25 us, 1 count
-  bool reads_back = false;  // tells where the servo is; torque then waits for that
+  // Tells where the servo is; torque then waits for that. One that does not may still be given a
+  // reading: of the pulse that a controller was found to send.
+  bool reads_back = false;
 };
 
 struct Command {
