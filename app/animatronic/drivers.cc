@@ -26,8 +26,9 @@ Reach ReachOf(const ServoBusConfig& bus) {
         return {"ids of Feetech servos", 0, 253, 0, 1023, "counts of an SCS servo"};
       }
       return {"ids of Feetech servos", 0, 253, 0, 4095, "counts"};
-    case BusKind::kMaestro:
     case BusKind::kReceiver:
+      return {"outputs of a receiver", 0, static_cast<int>(kMaxServos) - 1, 500, 2500, "us"};
+    case BusKind::kMaestro:
       break;
   }
   return {"channels of a Maestro", 0, 23, 64, 4080, "us"};
@@ -105,6 +106,12 @@ Result<> Configure(bus::FeetechBus& driver, const ServoBusConfig& config,
   return driver.Configure(feetech);
 }
 
+Result<> Configure(bus::ReceiverBus& driver, const ServoBusConfig& /*config*/,
+                   const servo::Contract& contract, const bus::BusConfig& bus) {
+  return driver.Configure(
+      {.bus = bus, .hold = contract.hold, .ease = contract.ease, .release = contract.limp});
+}
+
 void CheckServos(const std::vector<ServoBusConfig>& buses, const servo::ServoRig& rig,
                  std::string& problems) {
   for (const servo::Servo& servo : rig.servos) {
@@ -148,8 +155,10 @@ Drivers::Drivers(const std::vector<ServoBusConfig>& buses, const servo::ServoRig
       case BusKind::kFeetech:
         drivers_.emplace_back(std::in_place_type<bus::FeetechBus>);
         break;
-      case BusKind::kMaestro:
       case BusKind::kReceiver:
+        drivers_.emplace_back(std::in_place_type<bus::ReceiverBus>);
+        break;
+      case BusKind::kMaestro:
         drivers_.emplace_back(std::in_place_type<bus::MaestroBus>);
         break;
     }

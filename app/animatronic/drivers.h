@@ -13,6 +13,7 @@
 #include "core/bus/dynamixel_bus.h"
 #include "core/bus/feetech_bus.h"
 #include "core/bus/maestro_bus.h"
+#include "core/bus/receiver_bus.h"
 #include "core/servo/servo_rig.h"
 
 namespace facewire::app {
@@ -30,7 +31,7 @@ class Drivers {
   std::span<const animatronic::Attachment> attachments() const noexcept { return attachments_; }
 
  private:
-  using Driver = std::variant<bus::MaestroBus, bus::DynamixelBus, bus::FeetechBus>;
+  using Driver = std::variant<bus::MaestroBus, bus::DynamixelBus, bus::FeetechBus, bus::ReceiverBus>;
 
   std::deque<Driver> drivers_;  // they stay where they are
   std::vector<animatronic::Attachment> attachments_;
