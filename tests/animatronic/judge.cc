@@ -227,7 +227,7 @@ void Judge::LookAtTorque(Time at, std::size_t i) {
     const double late_s = late(*stopped_ + rig_.contract.stop_torque);
     if (late_s > 0) Note(at, i, Rule::kTorqueAfterStop, late_s, 0);
   }
-  const Time due = servo.wished ? *servo.wished + contract_ : Time{};
+  const Time due = servo.wished ? *servo.wished + contract_ + servo.wire.held_back : Time{};
   if (late(due) > 0) Note(at, i, Rule::kTorqueAfterContract, late(due), 0);
 }
 
@@ -256,7 +256,7 @@ void Judge::CheckLinkages(Time at) {
     const double allowed =
         astray(yields, rule.yields) + std::abs(double{rule.gain}) * astray(other, rule.other);
     const double by = Excess(rule, yields.goal, other.goal);
-    if (!broken.MayBe(at, by, links_[i].braking) && by > allowed) {
+    if (!broken.MayBe(at, by, links_[i].braking) && by > allowed + links_[i].told.by) {
       Note(at, rule.yields, Rule::kLinkage, by, allowed);
     }
   }

@@ -53,6 +53,7 @@ struct Wire {
   double step = 1;       // of its commands
   Duration reaction{};   // from what is told to what the bus has taken: a tick and the bytes' time
   Duration lets_go{};    // from the bus's word to a motor without current
+  Duration held_back{};  // a chain says nothing while it waits for a reply; but a stop
   double own_speed = 0;  // per second, of the servo's path; 0: no such path, or unlimited
 };
 

@@ -10,6 +10,7 @@
 #include "tests/sim/dynamixel.h"
 #include "tests/sim/feetech.h"
 #include "tests/sim/maestro.h"
+#include "tests/tools/firmware/firmware_bus.h"
 
 namespace facewire::stage {
 namespace {
@@ -22,27 +23,33 @@ constexpr double kAcceleration = 2700;  // degrees a second and second
 constexpr double kCrawl = 18;           // degrees a second
 constexpr double kDeadBand = 0.45;      // degrees
 constexpr std::uint32_t kBaud = 1'000'000;
+constexpr std::uint32_t kReceiverBaud = 115'200;
 
 // A hobby servo lets go two frames after its last pulse.
 constexpr Duration kPulseFrames = milliseconds(60);
-// A chain's bytes of one tick, in time, and the driver's wait for a reply that is due.
+// A receiver plans the pulses of the next 20 ms.
+constexpr Duration kReceiverFrames = milliseconds(80);
+// BusConfig::reply_timeout, up to the next tick.
+constexpr Duration kWaits = milliseconds(30);
+// A chain's bytes of one tick, in time.
 constexpr Duration kBytesTime = milliseconds(3);
 
 }  // namespace
 
 const char* Name(Kind kind) {
-  constexpr std::array<const char*, 4> kNames = {"maestro", "dynamixel", "sts", "scs"};
+  constexpr std::array<const char*, kKinds.size()> kNames = {"maestro", "receiver", "dynamixel",
+                                                             "sts", "scs"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
 double DegreesPerUnit(Kind kind) {
-  if (kind == Kind::kMaestro) return 0.09;
+  if (IsPulses(kind)) return 0.09;
   return kind == Kind::kScs ? 300.0 / 1024 : 360.0 / 4096;
 }
 
 servo::Servo ServoOf(Kind kind, std::size_t number, std::uint8_t id) {
   const double unit = 1 / DegreesPerUnit(kind);
-  const double neutral = kind == Kind::kMaestro ? 1500 : kind == Kind::kScs ? 512 : 2048;
+  const double neutral = IsPulses(kind) ? 1500 : kind == Kind::kScs ? 512 : 2048;
   const auto in_units = [&](double degrees) { return static_cast<float>(degrees * unit); };
   servo::Servo servo;
   servo.name = *ShortName::From(std::string(Name(kind)) + "_" + std::to_string(number));
@@ -61,11 +68,15 @@ servo::Servo ServoOf(Kind kind, std::size_t number, std::uint8_t id) {
   return servo;
 }
 
-Line::Line(const LineOptions& options, std::span<const servo::Servo> servos)
-    : options_(options), servos_(servos.begin(), servos.end()) {
+Line::Line(const LineOptions& options, const servo::Contract& contract,
+           std::span<const servo::Servo> servos)
+    : options_(options), contract_(contract), servos_(servos.begin(), servos.end()) {
   switch (options.kind) {
     case Kind::kMaestro:
       BuildMaestro();
+      break;
+    case Kind::kReceiver:
+      BuildReceiver();
       break;
     case Kind::kDynamixel:
       BuildDynamixel();
@@ -80,7 +91,7 @@ Line::Line(const LineOptions& options, std::span<const servo::Servo> servos)
 
 void Line::StartDriver() {
   bus::BusConfig config;
-  config.baud = kBaud;
+  config.baud = options_.kind == Kind::kReceiver ? kReceiverBaud : kBaud;
   for (const servo::Servo& servo : servos_) {
     (void)config.servos.try_push(animatronic::ConfigOf(servo, {}));
   }
@@ -95,6 +106,12 @@ void Line::StartDriver() {
                                .line = {.pololu = false, .device = 12, .crc = options_.crc},
                                .multi_target = options_.multi_target,
                                .answers = true});
+      break;
+    case Kind::kReceiver:
+      start(drivers_.emplace<bus::ReceiverBus>(), bus::ReceiverConfig{.bus = config,
+                                                                      .hold = contract_.hold,
+                                                                      .ease = contract_.ease,
+                                                                      .release = contract_.limp});
       break;
     case Kind::kDynamixel:
       start(drivers_.emplace<bus::DynamixelBus>(), bus::DynamixelConfig{.bus = config});
@@ -127,6 +144,16 @@ void Line::BuildMaestro() {
     board.channels.push_back(channel);
   }
   bus_ = std::make_unique<sim::Maestro>(board);
+}
+
+void Line::BuildReceiver() {
+  firmware::FirmwareBusOptions board;
+  board.baud = kReceiverBaud;
+  board.poses = options_.poses;
+  board.faults.line = options_.faults;
+  board.seed = options_.seed;
+  board.supply_ohm = 0.02;
+  bus_ = std::make_unique<firmware::FirmwareBus>(board);
 }
 
 void Line::BuildDynamixel() {
@@ -176,7 +203,7 @@ void Line::BuildFeetech() {
 
 Seen Line::Look(std::size_t servo) const {
   return {.torque = bus_->TorqueOn(servo),
-          .told = options_.kind != Kind::kMaestro || bus_->Goal(servo) != 0,
+          .told = !IsPulses(options_.kind) || bus_->Goal(servo) != 0,
           .goal = bus_->Goal(servo),
           .commanded = bus_->Commanded(servo),
           .position = bus_->Position(servo)};
@@ -184,10 +211,14 @@ Seen Line::Look(std::size_t servo) const {
 
 Wire Line::wire(std::size_t servo) const {
   const bus::ServoConfig limits = animatronic::ConfigOf(servos_[servo], {});
-  const bool pulses = options_.kind == Kind::kMaestro;
+  const bool pulses = IsPulses(options_.kind);
+  const bool receiver = options_.kind == Kind::kReceiver;
   return {.step = driver_->traits().step,
           .reaction = options_.period + kBytesTime,
-          .lets_go = pulses ? kPulseFrames : Duration{},
+          .lets_go = receiver ? kReceiverFrames
+                     : pulses ? kPulseFrames
+                              : Duration{},
+          .held_back = pulses ? Duration{} : kWaits,
           // A Dynamixel's speeds are whole steps of 15.6 counts a second.
           .own_speed = pulses ? 0.0 : limits.top_speed_per_s + 16.0};
 }

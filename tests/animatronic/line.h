@@ -14,18 +14,20 @@
 #include "core/bus/dynamixel_bus.h"
 #include "core/bus/feetech_bus.h"
 #include "core/bus/maestro_bus.h"
+#include "core/bus/receiver_bus.h"
 #include "core/servo/servo_rig.h"
 #include "tests/animatronic/judge.h"
 #include "tests/sim/bus.h"
 
 namespace facewire::stage {
 
-enum class Kind : std::uint8_t { kMaestro, kDynamixel, kSts, kScs };
-inline constexpr std::array kKinds = {Kind::kMaestro, Kind::kDynamixel, Kind::kSts, Kind::kScs};
+enum class Kind : std::uint8_t { kMaestro, kReceiver, kDynamixel, kSts, kScs };
+inline constexpr std::array kKinds = {Kind::kMaestro, Kind::kReceiver, Kind::kDynamixel, Kind::kSts,
+                                      Kind::kScs};
 const char* Name(Kind kind);
 
-// Whether the bus tells where its servos are, with and without torque.
-constexpr bool ReadsBack(Kind kind) { return kind != Kind::kMaestro; }
+// Hobby servos behind pulses, of which nobody knows where they are; the others tell.
+constexpr bool IsPulses(Kind kind) { return kind == Kind::kMaestro || kind == Kind::kReceiver; }
 // Degrees of one unit of the servo: 0.09 of a microsecond, 360 / 4096 or 300 / 1024 of a count.
 double DegreesPerUnit(Kind kind);
 
@@ -54,7 +56,8 @@ class Line {
  public:
   // `servos` are those of the rig that hang here. What the bus holds itself (limits in EEPROM) is
   // as `facewire servo` would have set it.
-  Line(const LineOptions& options, std::span<const servo::Servo> servos);
+  Line(const LineOptions& options, const servo::Contract& contract,
+       std::span<const servo::Servo> servos);
 
   // A new one, which knows nothing: the host's program has started (again).
   void StartDriver();
@@ -84,12 +87,14 @@ class Line {
 
  private:
   void BuildMaestro();
+  void BuildReceiver();
   void BuildDynamixel();
   void BuildFeetech();
 
   LineOptions options_;
+  servo::Contract contract_;
   std::vector<servo::Servo> servos_;
-  std::variant<bus::MaestroBus, bus::DynamixelBus, bus::FeetechBus> drivers_;
+  std::variant<bus::MaestroBus, bus::ReceiverBus, bus::DynamixelBus, bus::FeetechBus> drivers_;
   bus::ServoBus* driver_ = nullptr;
   std::unique_ptr<sim::Bus> bus_;
   std::optional<std::size_t> left_;  // until the cable is cut

@@ -48,9 +48,9 @@ Stage::Stage(const StageOptions& options)
     std::vector<servo::Servo> here;
     for (std::size_t i = 0; i < line.servos; ++i) {
       const std::size_t number = rig_.servos.size();
-      // Channels of a Maestro begin at 0, ids at 1.
-      here.push_back(ServoOf(line.kind, number,
-                             static_cast<std::uint8_t>(line.kind == Kind::kMaestro ? i : i + 1)));
+      // Channels begin at 0, ids at 1.
+      here.push_back(
+          ServoOf(line.kind, number, static_cast<std::uint8_t>(IsPulses(line.kind) ? i : i + 1)));
       here.back().bus = *ShortName::From("bus" + std::to_string(lines_.size()));
       (void)rig_.servos.try_push(here.back());
       Channel channel;
@@ -58,7 +58,7 @@ Stage::Stage(const StageOptions& options)
       (void)channels_.channels.try_push(channel);
       places_.push_back({lines_.size(), i});
     }
-    lines_.push_back(std::make_unique<Line>(line, here));
+    lines_.push_back(std::make_unique<Line>(line, options.contract, here));
     for (std::size_t i = 0; i < line.servos; ++i) wires.push_back(lines_.back()->wire(i));
   }
   if (options.linked) {
