@@ -197,7 +197,10 @@ void Judge::LookAtGoal(Time at, std::size_t i, const Seen& seen) {
   const auto word = std::find_if(servo.told.rbegin(), servo.told.rend(), [&](const Word& w) {
     return w.torque && std::abs(w.position - seen.goal) <= servo.wire.step / 2 + kRounding;
   });
-  if (word == servo.told.rend()) {
+  if (word == servo.told.rend() && servo.wire.weak_sum && at <= servo.unheard) {
+    ++forged_;
+    servo.agreed.reset();
+  } else if (word == servo.told.rend()) {
     Note(at, i, Rule::kStrange, seen.goal, servo.told.empty() ? 0 : servo.told.back().position);
   } else {
     if (servo.was_on && stopped_ && at > *stopped_ + servo.wire.reaction) {

@@ -19,7 +19,7 @@ using std::chrono::milliseconds;
 
 constexpr double kRange = 90;           // degrees
 constexpr double kSpeed = 270;          // degrees a second
-constexpr double kAcceleration = 2700;  // degrees a second and second
+constexpr double kAcceleration = 5400;  // degrees a second and second
 constexpr double kCrawl = 18;           // degrees a second
 constexpr double kDeadBand = 0.45;      // degrees
 constexpr std::uint32_t kBaud = 1'000'000;
@@ -219,6 +219,7 @@ Wire Line::wire(std::size_t servo) const {
                      : pulses ? kPulseFrames
                               : Duration{},
           .held_back = pulses ? Duration{} : kWaits,
+          .weak_sum = options_.kind == Kind::kSts || options_.kind == Kind::kScs,
           // A Dynamixel's speeds are whole steps of 15.6 counts a second.
           .own_speed = pulses ? 0.0 : limits.top_speed_per_s + 16.0};
 }
