@@ -58,7 +58,8 @@ struct Wire {
   // is the protocol's fault. It is counted; within the limits and no leap it has to be all the
   // same.
   bool weak_sum = false;
-  double own_speed = 0;  // per second, of the servo's path; 0: no such path, or unlimited
+  std::optional<double> home{};  // where a board sends its servo by itself
+  double own_speed = 0;          // per second, of the servo's path; 0: no such path, or unlimited
 };
 
 // Watches every word to the servos and every millisecond of the servos, and writes down what breaks
