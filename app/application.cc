@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "app/animatronic/servo_change.h"
 #include "app/answer_text.h"
 #include "app/devices.h"
 #include "app/error.h"
@@ -94,7 +95,10 @@ void Application::Build() {
     if (loaded.error() == Errc::kCorrupt) throw BadInput(line + Name(loaded.error()));
     throw Failure(line + Name(loaded.error()));
   });
-  Collect(problems, [&] { cast_.Load(config_.character, *arena_); });
+  Collect(problems, [&] {
+    cast_.Load(config_.character, *arena_);
+    BuildServos();
+  });
   retarget::NeutralCaptureConfig capture;
   if (config_.neutral.auto_s > 0) {
     capture.duration = milliseconds(static_cast<int>(1000 * config_.neutral.auto_s));
@@ -103,6 +107,22 @@ void Application::Build() {
     throw Failure(std::string("preparing the neutral's capture: ") + Name(ok.error()));
   }
   if (!problems.empty()) throw BadInput(problems);
+}
+
+void Application::BuildServos() {
+  servo_rig_ = cast_.running().servos;
+  if (config_.buses.empty() || options_.read_only) return;
+  std::vector<ServoBusConfig> buses = config_.buses;
+  for (ServoBusConfig& bus : buses) {
+    // Mock hardware: nobody at the other end of a pseudo-terminal without a link.
+    if (options_.fake && !bus.port.starts_with("pty:")) bus.port = "pty:";
+  }
+  try {
+    output_.emplace(buses, servo_rig_, clock_);
+  } catch (const BadInput& e) {
+    throw BadInput(config_.character.rig.string() + ", with the buses of " +
+                   options_.config.string() + ":\n" + e.what());
+  }
 }
 
 bool Application::PlaysFast() const {
@@ -151,6 +171,10 @@ void Application::Open() {
     port_ = MakeHostLine(line_address_, config_.host.baud);
     OpenSerialPort(*port_, line_address_, config_.host.baud);
   }
+  if (output_) {
+    output_->Open();
+    servos_.emplace(*output_, clock_);
+  }
   StartCamera(*camera_, camera_address_);
 
   line_.emplace(port_.get(), clock_, milliseconds(config_.host.write_budget_ms));
@@ -168,6 +192,7 @@ void Application::Open() {
           .calibrate = lines_.calibrate.get(),
           .status_led = lines_.status_led.get(),
           .servo_power = lines_.servo_power.get(),
+          .servos = servos_ ? &*servos_ : nullptr,
           .keep_neutral = [this](const retarget::Neutral& neutral) { return KeepNeutral(neutral); },
           .latch = &latch_,
           .log_answer =
@@ -177,6 +202,7 @@ void Application::Open() {
           .log_panel = [this](const char* text) { journal_.Write(Event::kBoardLine, text); }},
       cast_.running());
   TakeStoredNeutral();
+  if (servos_) servos_->Begin();
   if (!no_control.empty()) journal_.Write(Event::kNoControl, no_control);
 }
 
@@ -266,6 +292,7 @@ void Application::Run(Requests& requests, Duration limit) {
     if (requests.reload.exchange(false)) (void)Reload();
   }
   supervisor_.Stopping();
+  if (servos_) servos_->End();
 }
 
 // What programs on the board have asked for and the tick cannot answer.
@@ -290,6 +317,21 @@ void Application::RunErrands() {
   }
 }
 
+// True: the mapper of `fresh` moves the servos that are driven. False: they have changed too much,
+// and are moved as before by the channels of the new rig. Throws BadInput: which it does not have.
+bool Application::UseServos(Character& fresh, const std::filesystem::path& file) const {
+  if (!output_ || SameButForMapping(servo_rig_, fresh.servos)) return true;
+  const std::optional<servo::Flaw> flaw = servo::FindFlaw(servo_rig_, fresh.rig);
+  if (flaw) {
+    throw BadInput(file.string() + ": servo \"" +
+                   std::string(servo_rig_.servos[flaw->servo].name.view()) +
+                   "\" follows a channel that this rig does not have, and other servos need a "
+                   "restart");
+  }
+  (void)fresh.mapper.Configure(servo_rig_, fresh.rig);  // without a flaw
+  return false;
+}
+
 // Between two ticks. Building may allocate; whatever goes wrong, the old character runs on. Answers
 // with every mistake on a line of its own.
 std::string Application::Reload() {
@@ -298,6 +340,7 @@ std::string Application::Reload() {
   try {
     const Config fresh = LoadConfig(options_.config);
     Character& prepared = cast_.Prepare(fresh.character);
+    const bool servos_stay = UseServos(prepared, fresh.character.rig);
     if (const Result<> ok = service_->Reload(ServiceConfigOf(fresh), prepared); !ok) {
       throw BadInput(fresh.character.rig.string() + ": " + Name(ok.error()));
     }
@@ -307,6 +350,11 @@ std::string Application::Reload() {
     journal_.Write(Event::kReloaded,
                    "reloaded rig, blend, filter, rates and state times; other changes need a "
                    "restart");
+    if (!servos_stay) {
+      journal_.Write(Event::kReloadProblem,
+                     "the rig's servos have changed in more than what moves them (from, offset, "
+                     "map): they go on as before until a restart");
+    }
   } catch (const std::exception& e) {
     problems = e.what();
     journal_.Write(Event::kReloadProblem, "not reloaded, running on as before:\n" + problems);
@@ -322,8 +370,25 @@ std::string Application::Summary() const {
   text += "networks " + config_.tracker.networks.string() + "\n";
   text += cast_.Summary();
   text += "gpio     " + GpioSummary(config_.gpio) + "\n";
+  text += "servos   " + ServoSummary() + "\n";
   text += "host     " + (line_address_.empty() ? "none" : line_address_) + "\n";
   text += "control  " + (socket.empty() ? "none" : socket.string()) + "\n";
+  return text;
+}
+
+std::string Application::ServoSummary() const {
+  if (servo_rig_.servos.empty()) return "none";
+  const std::string count = std::to_string(servo_rig_.servos.size());
+  if (config_.buses.empty()) return count + ", and no [[bus]] that drives them";
+  std::string text = count;
+  for (const ServoBusConfig& bus : config_.buses) {
+    text += "\nbus      " + bus.name + ": " + Name(bus.kind) + ", " + bus.port + ", " +
+            std::to_string(bus.rate_hz) + " Hz:";
+    for (const servo::Servo& servo : servo_rig_.servos) {
+      if (servo.bus.view() != bus.name) continue;
+      text += " " + std::string(servo.name.view()) + " (" + std::to_string(servo.id) + ")";
+    }
+  }
   return text;
 }
 
@@ -336,6 +401,8 @@ MemoryReport Application::Memory() const {
                           "frames of a performer's face at rest"});
   report.parts.push_back(
       {"service", sizeof(Application), "states, limits, rigs, frames of the line, counters"});
+  report.parts.push_back(
+      {"servo buses", output_ ? output_->bytes() : 0, "drivers, ports' buffers and their reports"});
   std::size_t footage = static_cast<std::size_t>(config_.camera.replay.memory_mib) << 20U;
   if (const auto* replay = dynamic_cast<const hal::replay::ReplayCamera*>(camera_.get())) {
     footage = replay->info().block_bytes;

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "app/animatronic/output_thread.h"
+#include "app/animatronic/servo_output.h"
 #include "app/cast.h"
 #include "app/config.h"
 #include "app/control.h"
@@ -25,6 +27,7 @@
 #include "core/base/arena.h"
 #include "core/frame_path/frame_path.h"
 #include "core/retarget/neutral_capture.h"
+#include "core/servo/servo_rig.h"
 #include "hal/camera.h"
 #include "hal/clock.h"
 #include "hal/serial_port.h"
@@ -72,11 +75,14 @@ class Application {
   ServiceConfig ServiceConfigOf(const Config& config) const;
   bool PlaysFast() const;
   std::filesystem::path NeutralFile() const { return config_.neutral.folder / "performer.neutral"; }
+  void BuildServos();
+  std::string ServoSummary() const;
   void TakeStoredNeutral();
   std::string OpenControl();
   std::string KeepNeutral(const retarget::Neutral& neutral) const;
   void PrepareStorage();
   std::string Reload();
+  bool UseServos(Character& fresh, const std::filesystem::path& file) const;
   void RunErrands();
 
   ApplicationOptions options_;
@@ -101,6 +107,9 @@ class Application {
   std::optional<HostLine> line_;
   Control control_;
   GpioLines lines_;
+  servo::ServoRig servo_rig_;  // of the servos that are driven; a reload changes nothing about it
+  std::optional<ServoOutput> output_;  // none without a [[bus]]
+  std::optional<OutputThread> servos_;
   std::string storage_problem_;  // why the state folder takes nothing; "": it does
   StopLatch latch_;
   std::optional<Service> service_;

@@ -61,15 +61,19 @@ void Cast::Load(const CharacterConfig& config, Arena& arena) {
 void Cast::Build(const CharacterConfig& config, std::size_t which) {
   const std::vector<std::string> signals = SignalNames();
   const Rig rig = LoadRig(config.rig, &signals);
-  (void)LoadServoRig(config.rig, rig);  // its mistakes are the character's
+  const servo::ServoRig servos = LoadServoRig(config.rig, rig);
   Character& character = characters_[which].emplace();
   character.rig = rig;
+  character.servos = servos;
   character.rig_id = wire::RigId(rig);
   Arena arena(memory_[which]);
   if (const Result<> ok = character.retargeter.Configure(character.rig, MappingOf(profile_), arena,
                                                          MappingOf(personal_));
       !ok) {
     throw Failure(config.rig.string() + ": " + Name(ok.error()));
+  }
+  if (const Result<> ok = character.mapper.Configure(servos, rig); !ok) {
+    throw Failure(config.rig.string() + ": the servos: " + Name(ok.error()));
   }
   character.retargeter.SetBlend(config.blend);
 }

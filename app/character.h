@@ -5,6 +5,8 @@
 
 #include "core/retarget/retargeter.h"
 #include "core/rig/rig.h"
+#include "core/servo/mapper.h"
+#include "core/servo/servo_rig.h"
 
 namespace facewire::app {
 
@@ -13,6 +15,8 @@ struct Character {
   Rig rig;
   std::uint32_t rig_id = 0;         // wire::RigId(rig)
   retarget::Retargeter retargeter;  // configured for the rig
+  servo::ServoRig servos;
+  servo::Mapper mapper;  // from the rig to the servos that are driven
 };
 
 }  // namespace facewire::app

@@ -55,6 +55,8 @@ class HostLine {
   // True when the pose was handed over completely.
   bool Send(const wire::Pose& pose, const wire::Status* status) noexcept;
 
+  // Whether there is a line at all.
+  bool exists() const noexcept { return port_ != nullptr; }
   // False while a line that there should be is closed.
   bool connected() const noexcept { return port_ == nullptr || open_; }
   // For how long an open line has taken no byte (every tick has a pose for it); zero while closed.

@@ -98,7 +98,7 @@ bool Panel::PowerOf(const PanelView& view) noexcept {
   } else if (view.pose_taken) {
     heard_ = view.now;
   }
-  return heard_ && view.now - *heard_ < kUnheard && view.torque && !view.ending;
+  return heard_ && view.now - *heard_ < kUnheard && view.servos_well && view.torque && !view.ending;
 }
 
 void Panel::Set(Watched<hal::GpioOutput>& output, bool asserted, Time now,

@@ -26,7 +26,8 @@ struct PanelView {
   Time now{};
   ServiceState state = ServiceState::kStarting;
   bool torque = false;       // the state machine's word
-  bool pose_taken = false;   // the host's line took this tick's pose
+  bool pose_taken = false;   // the host's line took this tick's pose; without a line, the buses did
+  bool servos_well = true;   // ServoPower's word, where servos hang on buses
   bool calibrating = false;  // somebody asked for it, and it is running
   bool ending = false;       // the last tick, or only a new process can help
 };

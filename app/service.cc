@@ -12,6 +12,8 @@ using std::chrono::milliseconds;
 
 // A capture time further from the present than this is of another clock.
 constexpr Duration kOldestPicture = milliseconds(500);
+// Far longer than the opening of any port.
+constexpr Duration kServosHang = std::chrono::seconds(10);
 
 std::uint32_t Low32(std::uint64_t count) noexcept { return static_cast<std::uint32_t>(count); }
 
@@ -38,6 +40,7 @@ Service::Service(const ServiceConfig& config, const ServiceParts& parts,
   deadline_ = started_ + period();
   now_ = config_.media_time ? Time{} : started_;
   next_status_ = status_at_ = next_description_ = now_;
+  if (parts_.servos != nullptr) servo_power_.emplace(parts_.servos->contract());
   (void)Reload(config, character);  // passed its checks, and there is no neutral yet
   stop_remembered_ = stop_kept_ = parts_.latch != nullptr && parts_.latch->Engaged();
 }
@@ -178,6 +181,9 @@ const char* Service::Ailment() const noexcept {
   if (config_.line_stuck_after > Duration::zero() &&
       parts_.line.TakesNothingFor() > config_.line_stuck_after) {
     return "the line is open but takes no bytes";
+  }
+  if (servo_report_ != nullptr && clock - std::max(servo_report_->at, started_) > kServosHang) {
+    return "the servos' thread hangs";
   }
   return "";
 }
@@ -348,7 +354,18 @@ Time Service::TimeOnLine() noexcept {
   return pictured_ ? now_ + (clock - acquired_) : now_;
 }
 
+// False when the servos on the buses must not have power. Without torque no wish is handed over:
+// the servos' own contract takes its course.
+bool Service::MoveServos(const MotionOutput& out) noexcept {
+  if (parts_.servos == nullptr) return true;
+  parts_.servos->SetStopped(out.state == ServiceState::kStopped);
+  if (out.torque) parts_.servos->Hand(character_->mapper.Map(out.pose));
+  servo_report_ = &parts_.servos->report();
+  return servo_power_->Allowed(*servo_report_, parts_.clock.Now());
+}
+
 void Service::Send(const MotionOutput& out) noexcept {
+  const bool servos_well = MoveServos(out);
   if (config_.describe_every > Duration::zero() && now_ >= next_description_) {
     next_description_ = now_ + config_.describe_every;
     parts_.line.Describe();
@@ -360,7 +377,8 @@ void Service::Send(const MotionOutput& out) noexcept {
   panel_.Show({.now = now_,
                .state = out.state,
                .torque = out.torque,
-               .pose_taken = taken,
+               .pose_taken = taken || (parts_.servos != nullptr && !parts_.line.exists()),
+               .servos_well = servos_well,
                .calibrating = calibration_.requested(),
                .ending = out.finished || *Ailment() != '\0'});
   if (pictured_) {

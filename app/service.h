@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "app/animatronic/output_thread.h"
+#include "app/animatronic/servo_power.h"
 #include "app/backoff.h"
 #include "app/calibration.h"
 #include "app/character.h"
@@ -53,6 +55,8 @@ struct ServiceParts {
   hal::GpioInput* calibrate = nullptr;
   hal::GpioOutput* status_led = nullptr;
   hal::GpioOutput* servo_power = nullptr;
+  // Moves the servos by the character's mapper; null: there is no servo bus.
+  OutputThread* servos = nullptr;
   // Keeps a neutral that a command took, across boots. Why it could not be kept; "" when it is.
   std::function<std::string(const retarget::Neutral&)> keep_neutral = {};
   // Remembers an emergency stop across crashes and boots; null: none does.
@@ -92,8 +96,8 @@ class Service {
 
   // What only a restart of the process might still help; "" when nothing is wrong in that way. The
   // camera opens, but no fresh picture has come for three times its time-out although it was
-  // restarted; or the line is open, but has taken no byte for too long. (A camera or a line that is
-  // unplugged is known, and tried again.)
+  // restarted; the line is open, but has taken no byte for too long; or the servos' thread is not
+  // heard of. (A camera or a line that is unplugged is known, and tried again.)
   const char* Ailment() const noexcept;
   // Why the state is what it is, where the state alone does not say; "" else.
   const char* reason() const noexcept;
@@ -110,6 +114,8 @@ class Service {
   Time now() const noexcept { return now_; }
   ServiceState state() const noexcept { return motion_.state(); }
   const ServiceStats& stats() const noexcept { return stats_; }
+  // Of the last tick; null: there is no servo bus.
+  const ServoReport* servos() const noexcept { return servo_report_; }
   // Of the last second that a status was made for.
   const wire::Status& status() const noexcept { return status_; }
 
@@ -126,6 +132,7 @@ class Service {
   void RememberStop() noexcept;
   void EndCalibration() noexcept;
   void Send(const MotionOutput& out) noexcept;
+  bool MoveServos(const MotionOutput& out) noexcept;
   bool StatusDue() noexcept;
   Duration period() const noexcept { return Duration(1'000'000 / config_.min_rate_hz); }
   Time TimeOnLine() noexcept;
@@ -157,6 +164,8 @@ class Service {
   bool quit_ = false;
   bool rest_ = false;
   Panel panel_;
+  std::optional<ServoPower> servo_power_;
+  const ServoReport* servo_report_ = nullptr;
   bool stop_remembered_ = false;  // from before the start; counts for the first tick
   bool stop_kept_ = false;        // the latch was asked to remember the present stop
   std::optional<Request> stop_;   // is answered when the latch has it

@@ -108,8 +108,10 @@ Result<> Configure(bus::FeetechBus& driver, const ServoBusConfig& config,
 
 Result<> Configure(bus::ReceiverBus& driver, const ServoBusConfig& /*config*/,
                    const servo::Contract& contract, const bus::BusConfig& bus) {
-  return driver.Configure(
-      {.bus = bus, .hold = contract.hold, .ease = contract.ease, .release = contract.limp});
+  return driver.Configure({.bus = bus,
+                           .hold = contract.fresh + contract.hold,
+                           .ease = contract.ease,
+                           .release = contract.limp});
 }
 
 void CheckServos(const std::vector<ServoBusConfig>& buses, const servo::ServoRig& rig,

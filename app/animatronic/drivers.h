@@ -27,11 +27,16 @@ class Drivers {
   Drivers(const Drivers&) = delete;
   Drivers& operator=(const Drivers&) = delete;
 
+  // Of memory, with the drivers.
+  std::size_t bytes() const noexcept {
+    return drivers_.size() * sizeof(Driver) + attachments_.size() * sizeof(attachments_[0]);
+  }
   // In the order of `buses`.
   std::span<const animatronic::Attachment> attachments() const noexcept { return attachments_; }
 
  private:
-  using Driver = std::variant<bus::MaestroBus, bus::DynamixelBus, bus::FeetechBus, bus::ReceiverBus>;
+  using Driver =
+      std::variant<bus::MaestroBus, bus::DynamixelBus, bus::FeetechBus, bus::ReceiverBus>;
 
   std::deque<Driver> drivers_;  // they stay where they are
   std::vector<animatronic::Attachment> attachments_;

@@ -34,7 +34,7 @@ ServoOutput::ServoOutput(const std::vector<ServoBusConfig>& buses, const servo::
 
 ServoOutput::ServoOutput(const std::vector<ServoBusConfig>& buses, const servo::ServoRig& rig,
                          hal::Clock& clock, const MakePort& make_port)
-    : clock_(clock), drivers_(buses, rig) {
+    : clock_(clock), contract_(rig.contract), drivers_(buses, rig) {
   const Result<> ok = animatronic_.Configure(rig, drivers_.attachments());
   if (!ok) throw BadInput(std::string("the rig's servos: ") + facewire::Name(ok.error()));
   lines_.reserve(buses.size());  // spans point into them

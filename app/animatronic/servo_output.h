@@ -64,8 +64,15 @@ class ServoOutput {
   animatronic::Animatronic& animatronic() noexcept { return animatronic_; }
   const animatronic::Animatronic& animatronic() const noexcept { return animatronic_; }
   Duration period() const noexcept { return animatronic_.period(); }
+  // Of memory beside itself.
+  std::size_t bytes() const noexcept { return drivers_.bytes() + lines_.size() * sizeof(Line); }
+  // Of the rig.
+  const servo::Contract& contract() const noexcept { return contract_; }
 
-  // By index of the bus.
+  // By index of the bus. Its servos are indices into ServoRig::servos, in the driver's order.
+  std::span<const std::uint8_t> servos(std::size_t bus) const noexcept {
+    return drivers_.attachments()[bus].servos.span();
+  }
   PortState port(std::size_t bus) const noexcept;
   const PortCounters& counters(std::size_t bus) const noexcept { return lines_[bus].counters; }
 
@@ -92,6 +99,7 @@ class ServoOutput {
   bool AllSaid() const noexcept;
 
   hal::Clock& clock_;
+  servo::Contract contract_;
   Drivers drivers_;
   animatronic::Animatronic animatronic_;
   std::vector<Line> lines_;
