@@ -21,7 +21,7 @@ namespace facewire::bus {
 // `hold`, go to neutral within `ease`, stay there for `release`, and end. Kept in whole
 // milliseconds.
 struct ReceiverConfig {
-  BusConfig bus;  // ids are the receiver's outputs, from 0
+  BusConfig bus{};  // ids are the receiver's outputs, from 0
   Duration hold = std::chrono::milliseconds(400);
   Duration ease = std::chrono::milliseconds(1500);
   Duration release = std::chrono::milliseconds(5000);

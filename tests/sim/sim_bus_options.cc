@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -36,22 +37,8 @@ struct Given {
 
 [[noreturn]] void Refuse(const std::string& what) { throw std::runtime_error(what); }
 
-void Declare(CLI::App& app, Given& given) {
-  app.add_option("KIND", given.kind, "maestro, xl330, xl430 (Dynamixel), sts or scs (Feetech)")
-      ->required();
+void DeclareShared(CLI::App& app, Given& given) {
   app.add_option("--link", given.link, "where to put the link to the line")->required();
-  app.add_option(
-         "--servos", given.servos,
-         "how many; a Maestro has 6, 12, 18 or 24 channels (default 6), a chain's servos get "
-         "the ids from 1 (default 4)")
-      ->check(CLI::Range(1, 252));
-  app.add_option("--ids", given.ids, "the ids of a chain's servos, such as 1,2,7")->delimiter(',');
-  app.add_option(
-      "--baud", given.baud,
-      "of the line (default 1000000 on chains; on a Maestro's USB port it does not matter)");
-  app.add_flag("--echo", given.echo, "the host gets its own bytes back, too");
-  app.add_flag("--strict-baud", given.strict_baud,
-               "a chain hears only a host that has set its baud rate on the line");
   app.add_option("--pose", given.pose,
                  "where the servos are at power-on: middle, random, or a position for all");
   app.add_option("--gravity", given.gravity_Nm, "torque of a level arm on every servo, Nm");
@@ -66,6 +53,24 @@ void Declare(CLI::App& app, Given& given) {
   app.add_option("--random-faults", given.random_faults, "so many of the servos' faults a minute");
   app.add_option("--seed", given.seed, "of everything that is left to chance");
   app.add_option("--seconds", given.seconds, "ends after this time (default: on a signal)");
+}
+
+void Declare(CLI::App& app, Given& given) {
+  app.add_option("KIND", given.kind, "maestro, xl330, xl430 (Dynamixel), sts or scs (Feetech)")
+      ->required();
+  DeclareShared(app, given);
+  app.add_option(
+         "--servos", given.servos,
+         "how many; a Maestro has 6, 12, 18 or 24 channels (default 6), a chain's servos get "
+         "the ids from 1 (default 4)")
+      ->check(CLI::Range(1, 252));
+  app.add_option("--ids", given.ids, "the ids of a chain's servos, such as 1,2,7")->delimiter(',');
+  app.add_option(
+      "--baud", given.baud,
+      "of the line (default 1000000 on chains; on a Maestro's USB port it does not matter)");
+  app.add_flag("--echo", given.echo, "the host gets its own bytes back, too");
+  app.add_flag("--strict-baud", given.strict_baud,
+               "a chain hears only a host that has set its baud rate on the line");
   app.add_flag("--crc", given.crc, "Maestro: packets end with a CRC");
   app.add_option("--timeout-ms", given.timeout_ms, "Maestro: serial timeout, 0 is off");
   app.add_option("--device", given.device, "Maestro: device number");
@@ -183,6 +188,14 @@ std::unique_ptr<Bus> MakeFeetech(const Given& given, const FeetechSeries& series
   return std::make_unique<Feetech>(options);
 }
 
+void CheckShared(const Given& given) {
+  if (given.supply_V < 0 || given.supply_V > 60) Refuse("--supply: from 0 to 60 V");
+  if (given.supply_ohm < 0 || given.supply_ohm > 100) Refuse("--supply-ohm: from 0 to 100");
+  if (given.seconds < 0 || given.seconds > 1e6) Refuse("--seconds: from 0 to 1000000");
+  if (given.random_faults < 0 || given.random_faults > 100)
+    Refuse("--random-faults: from 0 to 100");
+}
+
 std::unique_ptr<Bus> Make(const Given& given) {
   if (given.strict_baud && given.kind == "maestro") {
     Refuse("--strict-baud: a Maestro's USB port does not mind the rate");
@@ -190,11 +203,7 @@ std::unique_ptr<Bus> Make(const Given& given) {
   if (given.baud != 0 && !(given.baud >= 1200 && given.baud <= 10e6)) {
     Refuse("--baud: from 1200 to 10000000");
   }
-  if (given.supply_V < 0 || given.supply_V > 60) Refuse("--supply: from 0 to 60 V");
-  if (given.supply_ohm < 0 || given.supply_ohm > 100) Refuse("--supply-ohm: from 0 to 100");
-  if (given.seconds < 0 || given.seconds > 1e6) Refuse("--seconds: from 0 to 1000000");
-  if (given.random_faults < 0 || given.random_faults > 100)
-    Refuse("--random-faults: from 0 to 100");
+  CheckShared(given);
   if (given.kind == "maestro") return MakeMaestro(given);
   if (given.kind == "xl330") return MakeDynamixel(given, Xl330());
   if (given.kind == "xl430") return MakeDynamixel(given, Xl430());
@@ -203,23 +212,21 @@ std::unique_ptr<Bus> Make(const Given& given) {
   Refuse("KIND: '" + given.kind + "' is not maestro, xl330, xl430, sts or scs");
 }
 
-}  // namespace
-
-SimBusOptions ParseSimBusOptions(int count, const char* const* arguments, int& exit_code) {
-  CLI::App app("A simulated servo bus on a pseudo-terminal, in real time.", "sim_bus");
-  Given given;
-  Declare(app, given);
+// Reads the command line and makes the bus; what went wrong is one line of `program`.
+SimBusOptions Parse(CLI::App& app, const Given& given,
+                    const std::function<std::unique_ptr<Bus>()>& make, int count,
+                    const char* const* arguments, int& exit_code) {
   SimBusOptions options;
   try {
     app.parse(count, arguments);
-    options.bus = Make(given);
+    options.bus = make();
   } catch (const CLI::Success& help) {
     exit_code = app.exit(help);
     return options;
   } catch (const std::exception& error) {
     std::string what = error.what();
     std::replace(what.begin(), what.end(), '\n', ' ');
-    std::fprintf(stderr, "sim_bus: %s\n", what.c_str());
+    std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), what.c_str());
     exit_code = 2;
     return options;
   }
@@ -227,8 +234,36 @@ SimBusOptions ParseSimBusOptions(int count, const char* const* arguments, int& e
   options.trace = given.trace;
   if (given.strict_baud) options.strict_baud = given.baud == 0 ? kChainBaud : given.baud;
   options.runs = Duration(static_cast<Duration::rep>(given.seconds * 1e6));
-  options.about = given.kind + " with " + std::to_string(options.bus->servos()) + " servos";
+  options.about = (given.kind.empty() ? "" : given.kind + " with ") +
+                  std::to_string(options.bus->servos()) + " servos";
   return options;
+}
+
+}  // namespace
+
+SimBusOptions ParseSimBusOptions(int count, const char* const* arguments, int& exit_code) {
+  CLI::App app("A simulated servo bus on a pseudo-terminal, in real time.", "sim_bus");
+  Given given;
+  Declare(app, given);
+  return Parse(
+      app, given, [&] { return Make(given); }, count, arguments, exit_code);
+}
+
+SimBusOptions ParseSimBusOptions(const OwnProgram& program, int count, const char* const* arguments,
+                                 int& exit_code) {
+  CLI::App app(program.description, program.name);
+  Given given;
+  given.servos = program.most_servos;
+  DeclareShared(app, given);
+  app.add_option("--servos", given.servos, "how many (default: all that it can have)")
+      ->check(CLI::Range(std::size_t{1}, program.most_servos));
+  const auto make = [&] {
+    CheckShared(given);
+    BusOptions options;
+    Fill(given, given.servos, program.low, program.high, options);
+    return program.make(options, given.servos);
+  };
+  return Parse(app, given, make, count, arguments, exit_code);
 }
 
 }  // namespace facewire::sim

@@ -30,9 +30,9 @@ std::pair<char, int> PlaceOf(int pin) {
 }  // namespace
 
 SimulatedBoard::SimulatedBoard() : avr_(avr_make_mcu_by_name("atmega328p")) {
+  avr_global_logger_set([](avr_t*, int, const char*, va_list) {});
   elf_firmware_t firmware = {};
   if (avr_ == nullptr || elf_read_firmware(FACEWIRE_FIRMWARE, &firmware) != 0) std::abort();
-  avr_global_logger_set([](avr_t*, int, const char*, va_list) {});
   avr_init(avr_);
   firmware.frequency = 16'000'000;
   avr_load_firmware(avr_, &firmware);
@@ -74,6 +74,7 @@ void SimulatedBoard::OnPin(avr_irq_t*, std::uint32_t value, void* pin) {
 void SimulatedBoard::OnByte(avr_irq_t*, std::uint32_t value, void* board) {
   auto& self = *static_cast<SimulatedBoard*>(board);
   const auto byte = static_cast<std::byte>(value);
+  self.bytes_.push_back(byte);
   std::span<const std::byte> bytes(&byte, 1);
   while (const auto received = self.decoder_.Next(bytes)) {
     if (const auto* status = std::get_if<wire::ReceiverStatus>(&received->message)) {
@@ -119,6 +120,8 @@ std::vector<SimulatedBoard::Pulse> SimulatedBoard::TakePulses(std::size_t servo)
 std::vector<wire::ReceiverStatus> SimulatedBoard::TakeStatus() {
   return std::exchange(status_, {});
 }
+
+std::vector<std::byte> SimulatedBoard::TakeBytes() { return std::exchange(bytes_, {}); }
 
 bool SimulatedBoard::AnyServoHigh() const {
   return std::any_of(pins_.begin(), pins_.begin() + kServos, [](const Pin& p) { return p.high; });

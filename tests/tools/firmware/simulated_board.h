@@ -43,6 +43,8 @@ class SimulatedBoard {
   // When the firmware computed, as it shows at A0.
   std::vector<Pulse> TakeBusy() { return TakePulses(kServos); }
   std::vector<wire::ReceiverStatus> TakeStatus();
+  // The same as bytes, as they came from its line.
+  std::vector<std::byte> TakeBytes();
   const wire::LinkStats& received() const { return decoder_.stats(); }
 
   // Bytes of its memory that were never written: between what is static and the deepest stack.
@@ -72,6 +74,7 @@ class SimulatedBoard {
   bool sending_ = false;
   wire::Decoder decoder_;
   std::vector<wire::ReceiverStatus> status_;
+  std::vector<std::byte> bytes_;
 };
 
 }  // namespace facewire::firmware
