@@ -18,14 +18,14 @@ constexpr std::string_view kHeader =
 constexpr std::size_t kFields = 8;
 constexpr double kGrid_s = 0.002;  // finer than any bus's tick
 
-constexpr double kLongestCommandLag_ms = 250;
-constexpr double kLongestPositionLag_ms = 250;
-constexpr double kCommandPart = 0.1;
-constexpr double kPositionPart = 0.15;
+constexpr double kLatest_ms = 250;
+constexpr double kMostOff = 0.1;  // part of the motion
 
 [[noreturn]] void Refuse(const std::string& path, std::size_t line, const std::string& what) {
   throw app::BadInput(path + ":" + std::to_string(line) + ": " + what);
 }
+
+double BandOf(const servo::Servo& servo) { return std::max(servo.dead_band, servo.backlash); }
 
 // A curve at every kGrid_s from `from_s`, as a line from point to point, or held.
 std::vector<double> OnGrid(const Curve& curve, double from_s, std::size_t count, bool holds) {
@@ -69,19 +69,24 @@ Following Compare(const std::vector<double>& leader, const std::vector<double>& 
   return best;
 }
 
-// From kSettled_s after the first torque to its end, or the last pose.
+double ValueAt(const Curve& curve, double t_s) { return OnGrid(curve, t_s, 1, false).front(); }
+
+// See ServoFollowing.
 TimeSpan SpanOf(const servo::Servo& servo, const Curve& parameter,
                 const std::vector<ServoRow>& rows) {
-  const auto on = std::ranges::find(rows, true, &ServoRow::torque_on);
-  const auto off = std::find_if(on, rows.end(), [](const ServoRow& r) { return !r.torque_on; });
+  const double near = std::max(4.0 * BandOf(servo), 0.02 * (servo.max - servo.min));
+  const auto met = std::ranges::find_if(rows, [&](const ServoRow& row) {
+    return row.torque_on && row.t_s >= parameter.front().t_s &&
+           std::abs(row.goal - ValueAt(parameter, row.t_s)) <= near;
+  });
+  const auto off = std::find_if(met, rows.end(), [](const ServoRow& r) { return !r.torque_on; });
   TimeSpan span{INFINITY, parameter.back().t_s};
-  if (on != rows.end()) span.from_s = std::max(on->t_s + kSettled_s, parameter.front().t_s);
+  if (met != rows.end()) span.from_s = met->t_s + kSettled_s;
   if (off != rows.end()) span.to_s = std::min(span.to_s, off->t_s);
   if (span.to_s - span.from_s < 1) {
-    throw app::BadInput("servo \"" + std::string(servo.name.view()) + "\" " +
-                        (on == rows.end()
-                             ? "never had torque"
-                             : "had torque for too short a time to say how it follows"));
+    throw app::BadInput("servo \"" + std::string(servo.name.view()) + "\" was never " +
+                        (met == rows.end() ? "told to be where its parameter was"
+                                           : "at work for long enough to say how it follows"));
   }
   return span;
 }
@@ -176,7 +181,7 @@ ServoFollowing Measure(const servo::Servo& servo, const Curve& parameter,
   const std::vector wanted_now(wanted.begin() + begin, wanted.end());
   const auto [least, most] = std::ranges::minmax(wanted_now);
   following.moved = most - least;
-  const bool moves = following.moved > 4 * std::max(servo.dead_band, servo.backlash);
+  const bool moves = following.moved > 4 * BandOf(servo);
   following.command = Compare(wanted, goals_now, early, moves);
   following.position = Compare(goals, positions, early, moves);
   following.unresolved = Unresolved(goals, commanded);
@@ -185,20 +190,15 @@ ServoFollowing Measure(const servo::Servo& servo, const Curve& parameter,
 }
 
 std::string WhyNot(const servo::Servo& servo, const ServoFollowing& following, double step) {
-  const double band = 2.0 * std::max<double>(servo.dead_band, servo.backlash);
-  const auto late = [](const Following& f, double most_ms) { return f.lag_ms > most_ms; };
-  const auto off = [&](const Following& f, double part) {
-    return f.rms > part * following.moved + band;
-  };
+  const double most_off = kMostOff * following.moved + 2 * BandOf(servo);
   if (following.torque_at_end) return "has torque at the end";
   if (following.beyond_limits > step / 2) {
     return "was told to go " + Number("%.1f", following.beyond_limits) + " beyond its limits";
   }
-  if (late(following.command, kLongestCommandLag_ms)) return "gets its commands too late";
-  if (off(following.command, kCommandPart))
-    return "gets other commands than the parameter asks for";
-  if (late(following.position, kLongestPositionLag_ms)) return "moves too late";
-  if (off(following.position, kPositionPart)) return "does not go where it is told";
+  if (following.command.lag_ms > kLatest_ms) return "gets its commands too late";
+  if (following.command.rms > most_off) return "gets other commands than its parameter asks for";
+  if (following.position.lag_ms > kLatest_ms) return "moves too late";
+  if (following.position.rms > most_off) return "does not go where it is told";
   if (following.unresolved > step) {
     return "comes to rest " + Number("%.2f", following.unresolved) + " from its command";
   }

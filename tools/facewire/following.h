@@ -20,7 +20,7 @@ struct ServoRow {
   double commanded = 0;  // what it made of it: the pulse, or the goal after the servo's own limits
   double position = 0;   // where the servo truly is
 };
-// Row k of the servo `index`, from 0, in the CSV file. Throws BadInput.
+// The rows of the servo `index`, from 0, in a CSV file. Throws BadInput.
 std::vector<ServoRow> ReadServoRows(const std::string& path, int index);
 
 // How one curve follows another: the delay, up to kLongestLag, that explains it best (least
@@ -32,8 +32,8 @@ struct Following {
 };
 inline constexpr double kLongestLag_s = 0.5;
 
-// A servo from its parameter to its shaft, in its own unit, from kSettled_s after its torque came
-// (a crawl is over by then) until the torque went or the poses ended.
+// A servo from its parameter to its shaft, in its own unit, from kSettled_s after its command first
+// met the parameter (until then it crawls) until the torque went or the poses ended.
 struct ServoFollowing {
   TimeSpan span{};
   double moved = 0;    // of the parameter, from its least to its most
@@ -46,19 +46,19 @@ struct ServoFollowing {
   bool torque_at_end = false;
   TimeSpan liveliest{};  // kCloseUp_s of the span in which the parameter moves most
 };
-inline constexpr double kSettled_s = 3;
+inline constexpr double kSettled_s = 1.5;
 inline constexpr double kRested_s = 0.1;
 inline constexpr double kCloseUp_s = 2;
 
-// `parameter`: the servo's position as the poses want it. Throws BadInput when the servo had no
-// torque for a second of the span.
+// `parameter`: the servo's position as the poses want it. Throws BadInput when the span is shorter
+// than a second.
 ServoFollowing Measure(const servo::Servo& servo, const Curve& parameter,
                        const std::vector<ServoRow>& rows);
 
-// Why this is no following, in words; "" when it is one: the command stays within the limits, comes
-// within kLongestCommandLag_ms, and is off by no more than kCommandPart of the parameter's motion
-// (rms) and twice the dead band; position likewise; what is unresolved is below `step`; and the
-// torque is off at the end.
+// Why this is no following, in words; "" when it is one: commands stay within the limits, command
+// and position each come within a quarter of a second and then are off (rms) by no more than a
+// tenth of the motion and two dead bands, at rest the bus is at most `step` off, and at the end
+// there is no torque.
 std::string WhyNot(const servo::Servo& servo, const ServoFollowing& following, double step);
 
 }  // namespace facewire::tools

@@ -54,7 +54,11 @@ const app::ServoBusConfig& BusOf(const servo::Servo& servo, const app::Config& c
 }
 
 bool HasPulses(BusKind kind) { return kind == BusKind::kMaestro || kind == BusKind::kReceiver; }
-double StepOf(BusKind kind) { return HasPulses(kind) ? 0.25 : 1; }
+// What such a bus resolves; the receiver's own figure is in tools/firmware/README.md.
+double StepOf(BusKind kind) {
+  if (kind == BusKind::kReceiver) return 0.5;
+  return kind == BusKind::kMaestro ? 0.25 : 1;
+}
 
 // The kind and number of a servo as people say it.
 std::string AddressOf(const servo::Servo& servo, const app::ServoBusConfig& bus) {
@@ -166,8 +170,8 @@ ServoSheet SheetOfServos(const ServoSheetOptions& options) {
     const Choice choice = ParseChoice(text);
     const auto at = servos.Find(choice.name);
     if (!at) {
-      throw BadInput("--servo " + text + ": the rig " + config.character.rig.string() + " has no servo \"" +
-                     choice.name + "\"");
+      throw BadInput("--servo " + text + ": the rig " + config.character.rig.string() +
+                     " has no servo \"" + choice.name + "\"");
     }
     const servo::Servo& servo = servos.servos[*at];
     if (servo.sources.empty()) {
@@ -175,7 +179,11 @@ ServoSheet SheetOfServos(const ServoSheetOptions& options) {
     }
     const app::ServoBusConfig& bus = BusOf(servo, config, options.config);
     std::vector<ServoRow> rows = ReadServoRows(choice.trace, choice.index);
-    for (ServoRow& row : rows) row.t_s -= start_s;
+    for (ServoRow& row : rows) {
+      row.t_s -= start_s;
+      // A pulse of 0 is none; the servo notices two periods later.
+      if (HasPulses(bus.kind) && row.goal == 0) row.torque_on = false;
+    }
     Curve parameter = ParameterOf(servo, rig, poses, start_s);
     if (rows.front().t_s > parameter.back().t_s || rows.back().t_s < parameter.front().t_s) {
       throw BadInput(choice.trace + " and " + options.recording +

@@ -33,6 +33,12 @@ double Step(double span, double wanted) {
   return 10 * power;
 }
 
+// Of a line of the grid, `step` from the next.
+std::string Label(double value, double step) {
+  const double rounded = std::round(value / step) * step + 0.0;  // no -0
+  return Number(step < 1 ? "%.1f" : "%.0f", rounded);
+}
+
 // A rectangle of the picture with its two axes.
 struct Plot {
   cv::Rect2d box;
@@ -47,25 +53,6 @@ struct Plot {
   }
 };
 
-// What the curves reach in the plot's time, with some air, and a twelfth of the range at least, so
-// that a servo at rest does not look as if it shook.
-void FitHeight(const TraceLane& lane, Plot& plot) {
-  double low = INFINITY;
-  double high = -INFINITY;
-  for (const Curve* curve : {&lane.parameter, &lane.command, &lane.position}) {
-    for (const auto& [t_s, value] : *curve) {
-      if (t_s < plot.time.from_s || t_s > plot.time.to_s || std::isnan(value)) continue;
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  }
-  if (low > high) low = lane.low, high = lane.high;
-  const double middle = (low + high) / 2;
-  const double half = std::max({(high - low) * 0.56, (lane.high - lane.low) / 24, 1e-6});
-  plot.low = middle - half;
-  plot.high = middle + half;
-}
-
 void DrawAxes(const Plot& plot, bool names_seconds, Canvas& canvas) {
   canvas.Box(plot.box, 0, palette::kPaper);
   const double rise = Step(plot.high - plot.low, 4);
@@ -73,8 +60,8 @@ void DrawAxes(const Plot& plot, bool names_seconds, Canvas& canvas) {
     const std::array line{cv::Point2d{plot.box.x, plot.Y(v)},
                           cv::Point2d{plot.box.x + plot.box.width, plot.Y(v)}};
     canvas.Stroke(line, palette::kLine, 1);
-    canvas.Text(Number(rise < 1 ? "%.1f" : "%.0f", v), {plot.box.x - 8, plot.Y(v) + kSmall / 2},
-                kSmall, palette::kMuted, Align::kRight);
+    canvas.Text(Label(v, rise), {plot.box.x - 8, plot.Y(v) + kSmall / 2}, kSmall, palette::kMuted,
+                Align::kRight);
   }
   const double step = Step(plot.time.to_s - plot.time.from_s, plot.box.width / 90);
   const double bottom = plot.box.y + plot.box.height;
@@ -82,9 +69,36 @@ void DrawAxes(const Plot& plot, bool names_seconds, Canvas& canvas) {
        t += step) {
     const std::array line{cv::Point2d{plot.X(t), plot.box.y}, cv::Point2d{plot.X(t), bottom}};
     canvas.Stroke(line, palette::kLine, 1);
-    canvas.Text(Number(step < 1 ? "%.1f" : "%.0f", t) + (names_seconds ? " s" : ""),
-                {plot.X(t), bottom + 18}, kSmall, palette::kMuted, Align::kCentre);
+    canvas.Text(Label(t, step) + (names_seconds ? " s" : ""), {plot.X(t), bottom + 18}, kSmall,
+                palette::kMuted, Align::kCentre);
   }
+}
+
+// What the curve is at `t_s`, between two of its points.
+double Between(const TimedValue& before, const TimedValue& after, double t_s, bool holds) {
+  if (holds || std::isnan(before.value) || std::isnan(after.value)) return before.value;
+  return before.value +
+         (after.value - before.value) * (t_s - before.t_s) / (after.t_s - before.t_s);
+}
+
+// The part of the curve within the time, its ends where the time's are.
+Curve Within(const Curve& curve, TimeSpan time, bool holds) {
+  Curve part;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const bool last = i + 1 == curve.size();
+    if (curve[i].t_s > time.to_s) break;
+    if (curve[i].t_s < time.from_s) {
+      if (!last && curve[i + 1].t_s > time.from_s) {
+        part.push_back({time.from_s, Between(curve[i], curve[i + 1], time.from_s, holds)});
+      }
+    } else {
+      part.push_back(curve[i]);
+    }
+    if (!last && !part.empty() && curve[i + 1].t_s > time.to_s) {
+      part.push_back({time.to_s, Between(curve[i], curve[i + 1], time.to_s, holds)});
+    }
+  }
+  return part;
 }
 
 void DrawCurve(const Plot& plot, const Curve& curve, bool holds, const cv::Scalar& colour,
@@ -94,21 +108,34 @@ void DrawCurve(const Plot& plot, const Curve& curve, bool holds, const cv::Scala
     if (line.size() > 1) canvas.Stroke(line, colour, width_px);
     line.clear();
   };
-  for (std::size_t i = 0; i < curve.size(); ++i) {
-    const auto& [t_s, value] = curve[i];
-    if (t_s > plot.time.to_s) break;
-    // The one before the plot begins is where its line comes from.
-    if (i + 1 < curve.size() && curve[i + 1].t_s < plot.time.from_s) continue;
+  for (const auto& [t_s, value] : Within(curve, plot.time, holds)) {
+    const double x = plot.X(t_s);
+    if (holds && !line.empty()) line.emplace_back(x, line.back().y);
     if (std::isnan(value)) {
-      if (holds && !line.empty()) line.emplace_back(plot.X(t_s), line.back().y);
       draw();
-      continue;
+    } else {
+      line.emplace_back(x, plot.Y(value));
     }
-    const cv::Point2d point{plot.X(std::max(t_s, plot.time.from_s)), plot.Y(value)};
-    if (holds && !line.empty()) line.emplace_back(point.x, line.back().y);
-    line.push_back(point);
   }
   draw();
+}
+
+// What the curves reach in the plot's time, with some air, and a twelfth of the range at least, so
+// that a servo at rest does not look as if it shook.
+void FitHeight(const TraceLane& lane, Plot& plot) {
+  double low = INFINITY;
+  double high = -INFINITY;
+  for (const Curve* curve : {&lane.parameter, &lane.command, &lane.position}) {
+    for (const auto& [t_s, value] : Within(*curve, plot.time, curve == &lane.command)) {
+      low = std::fmin(low, value);  // whichever is a number
+      high = std::fmax(high, value);
+    }
+  }
+  if (low > high) low = lane.low, high = lane.high;
+  const double middle = (low + high) / 2;
+  const double half = std::max({(high - low) * 0.56, (lane.high - lane.low) / 24, 1e-6});
+  plot.low = middle - half;
+  plot.high = middle + half;
 }
 
 void DrawPlot(const TraceLane& lane, const cv::Rect2d& box, TimeSpan time, bool names_seconds,
