@@ -120,7 +120,7 @@ void DrawCurve(const Plot& plot, const Curve& curve, bool holds, const cv::Scala
   draw();
 }
 
-// What the curves reach in the plot's time, with some air, and a twelfth of the range at least, so
+// What the curves reach in the plot's time, with some air, and a thirtieth of the range at least, so
 // that a servo at rest does not look as if it shook.
 void FitHeight(const TraceLane& lane, Plot& plot) {
   double low = INFINITY;
@@ -133,7 +133,7 @@ void FitHeight(const TraceLane& lane, Plot& plot) {
   }
   if (low > high) low = lane.low, high = lane.high;
   const double middle = (low + high) / 2;
-  const double half = std::max({(high - low) * 0.56, (lane.high - lane.low) / 24, 1e-6});
+  const double half = std::max({(high - low) * 0.56, (lane.high - lane.low) / 60, 1e-6});
   plot.low = middle - half;
   plot.high = middle + half;
 }
