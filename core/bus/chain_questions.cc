@@ -168,6 +168,7 @@ void ChainBus::Receive(std::span<const std::byte> bytes, Time now) noexcept {
     (void)asked_.try_resize(asked_.size() - 1);
     members_[i].lost_in_row = 0;
     Took(i, answer->data, now);
+    Summarise(now);  // before the next commands are made: a servo with torque shall keep it
   }
   if (asking_ && asked_.empty()) {
     asking_ = false;

@@ -269,6 +269,7 @@ void MaestroBus::Receive(std::span<const std::byte> bytes, Time now) noexcept {
     } else {
       TookPosition(asked_, *value, now);
     }
+    Summarise(now);  // before the next commands are made: a servo with pulses shall keep them
   }
 }
 

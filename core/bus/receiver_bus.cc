@@ -147,7 +147,7 @@ void ReceiverBus::Restart() noexcept {
   MakeSetup();
   SetAll(ServoState::kAbsent);
   stage_ = Stage::kSeek;
-  fell_silent_ = released_ = echoes_ = false;
+  fell_silent_ = released_ = stopped_ = echoes_ = false;
   unanswered_ = missed_ = 0;
   setup_at_.reset();
   sent_at_.reset();
@@ -176,6 +176,9 @@ void ReceiverBus::SetAll(ServoState state) noexcept {
 }
 
 void ReceiverBus::Obey(std::span<const ServoCommand> commands, Time now) noexcept {
+  const bool was_stopped = stopped_;
+  stopped_ = std::any_of(commands.begin(), commands.end(), [](const auto& c) { return c.stop; });
+  if (stopped_ != was_stopped) sent_at_.reset();  // at once
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     Channel& c = channels_[i];
     ServoFeedback& f = feedback_[i];
@@ -226,7 +229,7 @@ void ReceiverBus::WriteSetup(Time now) noexcept {
 }
 
 void ReceiverBus::WritePulses(Time now, bool at_once) noexcept {
-  wire::ServoPulses pulses{.setup_id = setup_.setup_id, .stop = released_};
+  wire::ServoPulses pulses{.setup_id = setup_.setup_id, .stop = released_ || stopped_};
   (void)pulses.quarter_us.try_resize(setup_.servos.size());  // of the same capacity
   bool changed = at_once;
   for (std::size_t i = 0; i < channels_.size(); ++i) {

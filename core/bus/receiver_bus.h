@@ -98,6 +98,7 @@ class ReceiverBus final : public ServoBus {
   std::size_t capacity_ = kMaxServos;  // until it says less
   bool fell_silent_ = false;           // it was heard before
   bool released_ = false;              // nobody has asked for torque since
+  bool stopped_ = false;               // by a command
   bool echoes_ = false;
   std::uint32_t unanswered_ = 0;  // setups, in a row
   std::uint32_t missed_ = 0;      // statuses, in a row

@@ -54,6 +54,10 @@ struct ServoCommand {
   // yet, the servo stays limp.
   float position = std::numeric_limits<float>::quiet_NaN();
   bool torque = false;
+  // Emergency stop, for the whole bus when any of its commands says so: what moves by itself stays
+  // where it is, even short of its position. Of use to a receiver, whose ramp may be on its way;
+  // the others' servos go on to the position.
+  bool stop = false;
 };
 
 enum class ServoState : std::uint8_t {

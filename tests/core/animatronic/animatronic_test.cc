@@ -233,6 +233,7 @@ TEST_F(AnimatronicTest, AStopWithTorqueReleasesWhenItsTimeIsOver) {
   EXPECT_EQ(a.releases, 0);
   EXPECT_EQ(a.told[0].position, 1500);
   EXPECT_TRUE(a.told[0].torque);
+  EXPECT_TRUE(a.told[0].stop) << "what moves by itself has to be told";
   Run(milliseconds(200), 1600, 1500);
   EXPECT_EQ(a.releases, 1);
 }
@@ -245,6 +246,7 @@ TEST_F(AnimatronicTest, AStopThatIsOverBeforeItsTimeReleasesNothing) {
   Tick();
   head.Release();
   Run(milliseconds(1000), 1500, 1500);
+  EXPECT_FALSE(a.told[0].stop);
   EXPECT_EQ(a.releases, 0);
   EXPECT_TRUE(a.told[0].torque);
 }

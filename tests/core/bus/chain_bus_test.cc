@@ -60,6 +60,22 @@ TYPED_TEST(ChainBusTest, TorqueComesAfterTheServoHasRepeatedItsGoal) {
   EXPECT_EQ(c.servo(1).position, 2010);  // it did not move
 }
 
+TYPED_TEST(ChainBusTest, TorqueFromBeforeStaysWhereTheMotionGoesOnFromThere) {
+  ChainContext<TypeParam> c(1);
+  c.servo(1).torque = true;
+  while (c.state(1) != ServoState::kLimp) {
+    c.Tick();
+    c.Deliver(c.now);
+  }
+  EXPECT_EQ(c.feedback(1).factor, 1);
+  c.Command(1, *c.feedback(1).position);
+  for (int i = 0; i < 100; ++i) {
+    c.Tick();
+    EXPECT_TRUE(c.servo(1).torque);
+  }
+  EXPECT_EQ(c.state(1), ServoState::kOn);
+}
+
 TYPED_TEST(ChainBusTest, AnOldGoalNeverBecomesAJumpWhateverPacketIsLost) {
   for (std::size_t lost = 0; lost < 60; ++lost) {
     static std::size_t which;

@@ -121,7 +121,19 @@ TEST(MaestroBus, ReadsErrorsAndPulsesBeforeItSaysThatItRuns) {
   EXPECT_EQ(c.feedback(0).state, ServoState::kLimp);
   EXPECT_FALSE(c.feedback(0).position) << "without pulses nobody knows";
   EXPECT_EQ(c.feedback(1).position, 1250) << "it went on from before";
+  c.Tick();
   EXPECT_EQ(c.board.targets, (std::vector<std::pair<int, int>>{{1, 0}})) << "and is told to end";
+}
+
+TEST(MaestroBus, PulsesThatWentOnFromBeforeDoNotEndWhereTheMotionGoesOnFromThem) {
+  Context c;
+  c.board.pulses[1] = 5000;
+  while (c.feedback(1).state != ServoState::kLimp) c.Tick();
+  EXPECT_EQ(c.feedback(1).factor, 1);
+  c.commands[1] = {.position = *c.feedback(1).position, .torque = true};
+  c.Run(milliseconds(1000));
+  ASSERT_FALSE(c.board.targets.empty());
+  for (const auto& target : c.board.targets) EXPECT_EQ(target, std::pair(1, 5000));
 }
 
 TEST(MaestroBus, FirstPulsesComeOneAfterTheOther) {

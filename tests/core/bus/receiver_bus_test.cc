@@ -309,6 +309,22 @@ TEST(ReceiverBus, PulsesEndAtOnceWhenTorqueIsNotWanted) {
   EXPECT_FALSE(c.feedback(0).position);
 }
 
+TEST(ReceiverBus, AStopOfOneIsToldAtOnceForAllAndEndsAtOnce) {
+  Context c;
+  c.RunUp();
+  c.Run(milliseconds(20));
+  c.peer.frames.clear();
+  c.commands[2].stop = true;
+  c.Tick();
+  ASSERT_EQ(c.peer.frames.size(), 1U);
+  EXPECT_TRUE(c.peer.frames[0].stop);
+  EXPECT_EQ(c.Pulse(0), 6000) << "with its torque";
+  c.commands[2].stop = false;
+  c.Tick();
+  ASSERT_EQ(c.peer.frames.size(), 2U);
+  EXPECT_FALSE(c.peer.frames[1].stop);
+}
+
 TEST(ReceiverBus, PositionAndTorqueAreWhatTheReceiverSays) {
   Context c;
   c.RunUp();

@@ -11,7 +11,6 @@ constexpr double kRadPerUs = 90 * sim::kDegree / 1000;  // a servo's 180 degrees
 // A pulse that has not come by then is missing, and a servo that misses two lets go.
 constexpr double kMissingMs = 25;
 constexpr double kLetsGoMs = 45;
-constexpr Duration kMostBehind = std::chrono::milliseconds(200);
 
 sim::BusOptions AtItsRate(sim::BusOptions options) {
   options.baud = 115'200;
@@ -20,9 +19,8 @@ sim::BusOptions AtItsRate(sim::BusOptions options) {
 
 }  // namespace
 
-AvrBus::AvrBus(const sim::BusOptions& options, std::size_t servos, hal::Clock* clock)
+AvrBus::AvrBus(const sim::BusOptions& options, std::size_t servos)
     : Bus(AtItsRate(options), servos, kMiddleUs, 1 / kRadPerUs, /*half_duplex=*/false),
-      clock_(clock),
       outputs_(servos) {
   FwDecoderInit(&listener_);
 }
@@ -53,12 +51,7 @@ void AvrBus::MoveServo(std::size_t index) {
 }
 
 void AvrBus::OnMillisecond(Time at) {
-  constexpr std::chrono::milliseconds kStep(1);
-  if (clock_ != nullptr && clock_->Now() - at > kMostBehind) {
-    stood_still_ += kStep;
-    return;
-  }
-  board_.RunFor(static_cast<double>(kStep.count()));
+  board_.RunFor(1);
   for (std::size_t i = 0; i < outputs_.size(); ++i) MoveServo(i);
   for (std::size_t i = outputs_.size(); i < SimulatedBoard::kServos; ++i) {
     (void)board_.TakePulses(i);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/base/time.h"
-#include "hal/clock.h"
 #include "tests/sim/bus.h"
 #include "tests/tools/firmware/firmware.h"
 #include "tests/tools/firmware/simulated_board.h"
@@ -21,18 +20,14 @@ class AvrBus final : public sim::Bus {
  public:
   static constexpr double kLow = 500, kHigh = 2500;  // us
 
-  // `servos` of the twelve outputs, from the first, have a servo. With a `clock`, whose time is
-  // that of the bus, the processor stands still while the bus is behind it: a computer that is too
-  // slow to simulate it in real time then has a board that is too slow, and not an ever older one.
-  AvrBus(const sim::BusOptions& options, std::size_t servos, hal::Clock* clock = nullptr);
+  // `servos` of the twelve outputs, from the first, have a servo.
+  AvrBus(const sim::BusOptions& options, std::size_t servos);
 
   // What the last whole servo pulses on the line asked for, whether they were obeyed or not.
   double Goal(std::size_t index) const override { return asked_.width[index] / 4.0; }
   double Commanded(std::size_t index) const override { return outputs_[index].width_us; }
   double ToOwn(double rad) const override;
   double ToRad(double own) const override;
-
-  Duration stood_still() const { return stood_still_; }
 
  private:
   struct Output {
@@ -46,11 +41,9 @@ class AvrBus final : public sim::Bus {
   void MoveServo(std::size_t index);
 
   SimulatedBoard board_;
-  hal::Clock* clock_;
   std::vector<Output> outputs_;
   FwDecoder listener_{};
   FwPulses asked_{};
-  Duration stood_still_{};
 };
 
 }  // namespace facewire::firmware

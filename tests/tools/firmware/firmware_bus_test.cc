@@ -263,6 +263,29 @@ TEST(FirmwareBus, AfterASilenceItCrawlsBackToTheCommands) {
   }
 }
 
+// The receiver is on its way by itself, and the commands do not move any more.
+TEST(FirmwareBus, AStopFreezesARampOfTheReceiversOwn) {
+  Context c;
+  c.RunUp(1500);
+  c.cut = true;
+  c.Run(milliseconds(300));
+  c.All(1900);
+  c.cut = false;
+  c.Run(milliseconds(300));
+  ASSERT_EQ(c.bus.state(), kFwRamping);
+  for (bus::ServoCommand& command : c.commands) command.stop = true;
+  c.Run(milliseconds(50));  // until it is heard, and shows
+  c.ForgetFastest();
+  c.Run(milliseconds(2000));
+  EXPECT_EQ(c.fastest, 0);
+  EXPECT_LT(c.bus.Commanded(0), 1800);
+  EXPECT_TRUE(c.bus.TorqueOn(0));
+  c.All(1900);
+  c.Run(milliseconds(2000));
+  EXPECT_EQ(c.bus.Commanded(0), 1900);
+  EXPECT_LE(c.fastest, 0.02 * kRamp + 1);
+}
+
 TEST(FirmwareBus, OnABadLineNoPulseLeavesItsLimitsOrItsSpeed) {
   FirmwareBusOptions options;
   options.faults.line = {.lose = 0.01, .flip = 0.01, .duplicate = 0.005, .noise_per_s = 50};

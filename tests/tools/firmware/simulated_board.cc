@@ -1,5 +1,6 @@
 #include "tests/tools/firmware/simulated_board.h"
 
+#include <simavr/avr_extint.h>
 #include <simavr/avr_ioport.h>
 #include <simavr/avr_uart.h>
 #include <simavr/sim_avr.h>
@@ -41,6 +42,11 @@ SimulatedBoard::SimulatedBoard() : avr_(avr_make_mcu_by_name("atmega328p")) {
   std::fill(avr_->data + kMemoryBegin, avr_->data + avr_->ramend + 1, kUntouched);
   avr_->vcc = avr_->avcc = avr_->aref = 5000;
 
+  // The firmware has no external interrupts; simavr would look for them in every cycle in which the
+  // pins of the first two servos are low.
+  for (const std::uint8_t interrupt : {std::uint8_t{0}, std::uint8_t{1}}) {
+    avr_extint_set_strict_lvl_trig(avr_, interrupt, 0);
+  }
   std::uint32_t flags = 0;
   avr_ioctl(avr_, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
   input_ = avr_io_getirq(avr_, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_INPUT);
@@ -101,11 +107,28 @@ void SimulatedBoard::Send(std::span<const std::byte> bytes) {
   avr_cycle_timer_register(avr_, kCyclesPerByte, OnNextByte, this);
 }
 
+// Whether the instruction that stood at `before` jumped back to where the one before it did, with
+// the same registers and interrupts open: one turn of a loop that computes nothing. An interrupt
+// routine that waits for an edge has them closed.
+bool SimulatedBoard::Waits(std::uint32_t before) noexcept {
+  if (avr_->pc >= before || avr_->sreg[S_I] == 0) return false;
+  const bool same =
+      avr_->pc == jumped_to_ && std::equal(registers_.begin(), registers_.end(), avr_->data);
+  jumped_to_ = avr_->pc;
+  std::copy_n(avr_->data, registers_.size(), registers_.begin());
+  return same;
+}
+
 void SimulatedBoard::RunFor(double ms) {
   const avr_cycle_count_t end =
       avr_->cycle + static_cast<avr_cycle_count_t>(ms * 1000 * kCyclesPerUs);
   while (avr_->cycle < end) {
+    const avr_flashaddr_t before = avr_->pc;
     if (avr_run(avr_) == cpu_Crashed) std::abort();
+    if (!Waits(before)) continue;
+    const avr_cycle_timer_slot_t* next = avr_->cycle_timers.timer;
+    const avr_cycle_count_t until = next != nullptr ? std::min(next->when, end) : end;
+    avr_->cycle = std::max(avr_->cycle, until);
   }
 }
 

@@ -18,7 +18,9 @@ struct avr_irq_t;
 namespace facewire::firmware {
 
 // An ATmega328P at 16 MHz that runs the firmware, with something to watch its twelve pins and the
-// other end of its line. Times are us since the start, to a cycle.
+// other end of its line. Times are us since the start, to a cycle. While the program turns in a
+// loop that waits for an interrupt or a timer, simulated time leaps to the next of either: nothing
+// else can end the loop.
 class SimulatedBoard {
  public:
   struct Pulse {
@@ -66,10 +68,14 @@ class SimulatedBoard {
   static void OnPin(avr_irq_t* irq, std::uint32_t value, void* pin);
   static void OnByte(avr_irq_t* irq, std::uint32_t value, void* board);
   static std::uint64_t OnNextByte(avr_t* avr, std::uint64_t when, void* board);
+  bool Waits(std::uint32_t before) noexcept;
 
   avr_t* avr_;
   avr_irq_t* input_;
   std::array<Pin, kServos + 1> pins_;  // of the servos, and A0
+  // Where it last jumped back, and its registers then.
+  std::uint32_t jumped_to_ = 0;
+  std::array<std::uint8_t, 32> registers_{};
   std::deque<std::byte> to_send_;
   bool sending_ = false;
   wire::Decoder decoder_;
