@@ -1,0 +1,23 @@
+#include <CLI/CLI.hpp>
+
+#include "tools/facewire/commands.h"
+#include "tools/facewire/servo/verbs.h"
+
+namespace facewire::tools {
+
+void AddServo(CLI::App& facewire) {
+  CLI::App* servo =
+      facewire.add_subcommand("servo", "Servo buses: find them, see, move and set up their servos");
+  servo->require_subcommand(1);
+  servo->get_formatter()->column_width(34);
+  servo->footer("`facewire servo VERB --help` tells more about a verb.");
+  AddServoFind(*servo);
+}
+
+std::string WithService(const std::string& line) {
+  return line.find("in use by another program") == std::string::npos
+             ? line
+             : line + "; if it is the service: sudo systemctl stop facewired";
+}
+
+}  // namespace facewire::tools
