@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/address_reader.h"
+#include "app/animatronic/bus_tables.h"
 #include "app/toml_reader.h"
 #include "hal/gpiod/find_line.h"
 #include "hal/local/local_socket.h"
@@ -23,21 +25,6 @@ void ReadPath(TableReader& table, std::string_view key, const std::filesystem::p
   std::string text = value.string();
   table.Text(key, text);
   value = text.empty() ? std::filesystem::path{} : (folder / text).lexically_normal();
-}
-
-// "kind:rest" with one of the kinds; a kind that ends in ':' wants a rest, others stand alone.
-void ReadAddress(TableReader& table, std::string_view key, std::string_view form,
-                 const std::vector<std::string>& kinds, std::string& value) {
-  std::string text = value;
-  table.Text(key, text);
-  for (const std::string& kind : kinds) {
-    const bool wants_rest = kind.back() == ':';
-    if (text == kind ? !wants_rest : wants_rest && text.starts_with(kind)) {
-      value = text;
-      return;
-    }
-  }
-  table.Problem(key, "\"" + text + "\" is not understood; expected " + std::string(form));
 }
 
 void ReadCamera(TableReader camera, const std::filesystem::path& folder, CameraConfig& config) {
@@ -97,13 +84,7 @@ void ReadFilter(TableReader filter, filter::FilterConfig& config) {
 }
 
 void ReadHost(TableReader host, const std::filesystem::path& folder, HostConfig& config) {
-  ReadAddress(host, "line", R"("serial:/dev/ttyACM0", "pty:LINK" or "none")",
-              {"serial:", "pty:", "none"}, config.line);
-  const std::size_t colon = config.line.find(':');
-  if (colon != std::string::npos) {
-    const std::filesystem::path path = folder / config.line.substr(colon + 1);
-    config.line = config.line.substr(0, colon + 1) + path.lexically_normal().string();
-  }
+  ReadLineAddress(host, "line", folder, true, config.line);
   host.Integer("baud", config.baud, 1200, 4'000'000, "baud");
   host.Integer("write_budget_ms", config.write_budget_ms, 0, 20, "ms");
   host.Integer("min_rate_hz", config.min_rate_hz, 20, 240, "Hz");
@@ -207,6 +188,7 @@ Config LoadConfig(const std::filesystem::path& file) {
   neutral.Number("auto_s", config.neutral.auto_s, {0, 60, "s"});
   neutral.Finish();
   ReadHost(top.Table("host"), folder, config.host);
+  config.buses = ReadBuses(top, folder);
   ReadControl(top.Table("control"), folder, config.control);
   ReadGpio(top.Table("gpio"), config.gpio);
   ReadStates(top.Table("states"), config.states);

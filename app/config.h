@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "app/animatronic/bus_config.h"
 #include "core/base/time.h"
 #include "core/filter/landmark_filter.h"
 #include "core/pose/pose_estimator.h"
@@ -97,6 +99,7 @@ struct Config {
   CharacterConfig character;
   NeutralConfig neutral;
   HostConfig host;
+  std::vector<ServoBusConfig> buses;
   ControlConfig control;
   GpioConfig gpio;
   state::StateConfig states;

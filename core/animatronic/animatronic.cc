@@ -16,6 +16,7 @@ bus::ServoConfig ConfigOf(const servo::Servo& servo, const bus::GuardConfig& gua
   return {.id = servo.id,
           .min = servo.min,
           .max = servo.max,
+          .neutral = servo.neutral,
           .arrive_speed_per_s = servo.crawl_speed_per_s,
           .arrive_acceleration_per_s2 =
               servo.max_acceleration_per_s2 * servo.crawl_speed_per_s / servo.max_speed_per_s,

@@ -27,8 +27,8 @@ struct Attachment {
                                                     // order of the driver's BusConfig::servos
 };
 
-// The part of a bus's configuration that a servo of the rig decides: id, limits, the pace of an
-// arrival (its crawl) and the speed that it may have by itself (a quarter above the rig's).
+// The part of a bus's configuration that a servo of the rig decides: id, limits, neutral, the pace
+// of an arrival (its crawl) and the speed that it may have by itself (a quarter above the rig's).
 bus::ServoConfig ConfigOf(const servo::Servo& servo, const bus::GuardConfig& guard) noexcept;
 
 // All servos of a character on all their buses, moved by one Motion: wishes in, bytes out; bytes

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "core/bus/fault_bits.h"
+
 namespace facewire::bus {
 namespace {
 
@@ -75,33 +77,13 @@ std::uint32_t Steps(float value, float step) noexcept {
   return static_cast<std::uint32_t>(std::max(1L, std::lround(value / step)));
 }
 
-struct FaultPair {
-  dxl::HardwareError theirs;
-  HardwareFault ours;
-};
-constexpr std::array kFaults = {
-    FaultPair{dxl::HardwareError::kVoltage, HardwareFault::kVoltage},
-    FaultPair{dxl::HardwareError::kHeat, HardwareFault::kHeat},
-    FaultPair{dxl::HardwareError::kEncoder, HardwareFault::kEncoder},
-    FaultPair{dxl::HardwareError::kShock, HardwareFault::kShock},
-    FaultPair{dxl::HardwareError::kOverload, HardwareFault::kOverload},
-};
-
-HardwareFaults FaultsFrom(std::uint32_t bits) noexcept {
-  unsigned faults = 0;
-  for (const FaultPair& pair : kFaults) {
-    if ((bits & static_cast<unsigned>(pair.theirs)) != 0) faults |= Bit(pair.ours);
-  }
-  return static_cast<HardwareFaults>(faults);
-}
-
-std::uint32_t FaultsTo(HardwareFaults faults) noexcept {
-  std::uint32_t bits = 0;
-  for (const FaultPair& pair : kFaults) {
-    if ((faults & Bit(pair.ours)) != 0) bits |= static_cast<unsigned>(pair.theirs);
-  }
-  return bits;
-}
+constexpr std::array<FaultPair<dxl::HardwareError>, 5> kFaults = {{
+    {dxl::HardwareError::kVoltage, HardwareFault::kVoltage},
+    {dxl::HardwareError::kHeat, HardwareFault::kHeat},
+    {dxl::HardwareError::kEncoder, HardwareFault::kEncoder},
+    {dxl::HardwareError::kShock, HardwareFault::kShock},
+    {dxl::HardwareError::kOverload, HardwareFault::kOverload},
+}};
 
 std::size_t SizeOf(const dxl::Packet& packet) noexcept { return packet ? packet->size() : 0; }
 
@@ -269,7 +251,7 @@ bool DynamixelBus::TakeSettings(std::size_t servo, std::size_t part,
       break;
     }
     default: {
-      const HardwareFaults shutdown = FaultsFrom(Get(data, kSettings[part], x::kShutdown));
+      const HardwareFaults shutdown = FaultsFrom(kFaults, Get(data, kSettings[part], x::kShutdown));
       compare(Setting::kShutdown, shutdown, dynamixel_.shutdown,
               (dynamixel_.shutdown & ~unsigned{shutdown}) == 0, false);
       break;
@@ -287,7 +269,7 @@ void DynamixelBus::TakeHealth(std::size_t servo, std::size_t part, std::span<con
       health.torque = Get(data, from, x::kTorqueEnable) != 0;
       return;
     case 1:
-      health.faults = FaultsFrom(Get(data, from, x::kHardwareError));
+      health.faults = FaultsFrom(kFaults, Get(data, from, x::kHardwareError));
       return;
     case 2:
       health.watched = Get(data, from, x::kBusWatchdog) == units;
@@ -329,7 +311,7 @@ Result<std::span<const std::byte>> DynamixelBus::MakeSetting(std::uint8_t id, Se
     case Setting::kMaxPosition:
       return write(x::kMaxPosition, 0, dxl::kCountsPerTurn - 1, raw);
     case Setting::kShutdown:
-      return write(x::kShutdown, 0, 0x1F, FaultsTo(static_cast<HardwareFaults>(value)));
+      return write(x::kShutdown, 0, 0x1F, FaultsTo(kFaults, static_cast<HardwareFaults>(value)));
     case Setting::kReturnDelay:
       return write(x::kReturnDelay, 0, 508, raw / 2);
     case Setting::kBaudRate:
@@ -338,6 +320,7 @@ Result<std::span<const std::byte>> DynamixelBus::MakeSetting(std::uint8_t id, Se
     case Setting::kLock:
     case Setting::kPulseRange:
     case Setting::kSerialErrors:
+    case Setting::kOutputs:
       return Errc::kUnsupported;
   }
   return Errc::kUnsupported;

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "core/bus/fault_bits.h"
+
 namespace facewire::bus {
 namespace {
 
@@ -48,33 +50,13 @@ std::uint8_t Get8(std::span<const std::byte> data, Range from, ft::Register what
 constexpr std::array<std::uint32_t, 8> kRates = {1'000'000, 500'000, 250'000, 128'000,
                                                  115'200,   76'800,  57'600,  38'400};
 
-struct FaultPair {
-  ft::ServoError theirs;
-  HardwareFault ours;
-};
-constexpr std::array kFaults = {
-    FaultPair{ft::ServoError::kVoltage, HardwareFault::kVoltage},
-    FaultPair{ft::ServoError::kEncoder, HardwareFault::kEncoder},
-    FaultPair{ft::ServoError::kHeat, HardwareFault::kHeat},
-    FaultPair{ft::ServoError::kCurrent, HardwareFault::kCurrent},
-    FaultPair{ft::ServoError::kOverload, HardwareFault::kOverload},
-};
-
-HardwareFaults FaultsFrom(unsigned bits) noexcept {
-  unsigned faults = 0;
-  for (const FaultPair& pair : kFaults) {
-    if ((bits & static_cast<unsigned>(pair.theirs)) != 0) faults |= Bit(pair.ours);
-  }
-  return static_cast<HardwareFaults>(faults);
-}
-
-std::uint8_t FaultsTo(HardwareFaults faults) noexcept {
-  unsigned bits = 0;
-  for (const FaultPair& pair : kFaults) {
-    if ((faults & Bit(pair.ours)) != 0) bits |= static_cast<unsigned>(pair.theirs);
-  }
-  return static_cast<std::uint8_t>(bits);
-}
+constexpr std::array<FaultPair<ft::ServoError>, 5> kFaults = {{
+    {ft::ServoError::kVoltage, HardwareFault::kVoltage},
+    {ft::ServoError::kEncoder, HardwareFault::kEncoder},
+    {ft::ServoError::kHeat, HardwareFault::kHeat},
+    {ft::ServoError::kCurrent, HardwareFault::kCurrent},
+    {ft::ServoError::kOverload, HardwareFault::kOverload},
+}};
 
 std::size_t SizeOf(const ft::Packet& packet) noexcept { return packet ? packet->size() : 0; }
 
@@ -206,7 +188,7 @@ bool FeetechBus::TakeSettings(std::size_t servo, std::size_t /*part*/,
   if (sts()) {
     const std::int32_t mode = Get8(data, from, sts::kMode);
     compare(Setting::kOperatingMode, mode, 0, mode == 0, true);
-    const HardwareFaults shutdown = FaultsFrom(Get8(data, from, sts::kUnload));
+    const HardwareFaults shutdown = FaultsFrom(kFaults, Get8(data, from, sts::kUnload));
     compare(Setting::kShutdown, shutdown, feetech_.shutdown,
             (feetech_.shutdown & ~unsigned{shutdown}) == 0, false);
     const bool fine = (Get8(data, from, sts::kPhase) & ft::kPhaseFineSpeed) != 0;
@@ -232,7 +214,7 @@ void FeetechBus::TakeHealth(std::size_t servo, std::size_t /*part*/,
             .slow = speed == SpeedOf(servo, true),
             .normal = speed == SpeedOf(servo, false),
             .watched = true,
-            .faults = FaultsFrom(errors_)};
+            .faults = FaultsFrom(kFaults, errors_)};
 }
 
 ChainBus::Reading FeetechBus::TakeStatus(std::size_t /*servo*/,
@@ -244,7 +226,7 @@ ChainBus::Reading FeetechBus::TakeStatus(std::size_t /*servo*/,
           .temperature_c = Get8(data, from, sts::kPresentTemperature),
           .load = static_cast<float>(ft::FromSignMagnitude(load, ft::kLoadSign)) * 1e-3F,
           .voltage_v = static_cast<float>(Get8(data, from, sts::kPresentVoltage)) * 0.1F,
-          .faults = FaultsFrom(errors_)};
+          .faults = FaultsFrom(kFaults, errors_)};
 }
 
 Result<FeetechBus::SettingPackets> FeetechBus::MakeSetting(FeetechSeries series, std::uint8_t id,
@@ -273,13 +255,14 @@ Result<FeetechBus::SettingPackets> FeetechBus::MakeSetting(FeetechSeries series,
       if (!is_sts) return Errc::kUnsupported;
       what = sts::kUnload;
       most = 0x3F;
-      raw = FaultsTo(static_cast<HardwareFaults>(value));
+      raw = FaultsTo(kFaults, static_cast<HardwareFaults>(value));
       break;
     case Setting::kReturnDelay:
     case Setting::kProfileUnit:
     case Setting::kLock:
     case Setting::kPulseRange:
     case Setting::kSerialErrors:
+    case Setting::kOutputs:
       return Errc::kUnsupported;
   }
   if (id > ft::kMaxId || value < 0 || value > most) return Errc::kOutOfRange;

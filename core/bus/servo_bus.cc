@@ -84,6 +84,8 @@ const char* Name(Setting setting) noexcept {
       return "pulse range";
     case Setting::kSerialErrors:
       return "serial errors";
+    case Setting::kOutputs:
+      return "outputs";
   }
   return "unknown";
 }

@@ -22,6 +22,9 @@ struct ServoConfig {
   std::uint8_t id = 0;  // the channel of a Maestro, or the servo's id
   float min = 0;        // nothing outside min..max is ever sent
   float max = 0;
+  // Where a failsafe of the bus's own takes the servo when the device falls silent: of a receiver
+  // alone, the others have none that moves. NaN: the middle of min..max.
+  float neutral = std::numeric_limits<float>::quiet_NaN();
   // How fast a servo that has just got its torque goes to where it is told to be, until it is
   // there; kept by the servo itself, where the bus has a means for it. > 0.
   float arrive_speed_per_s = 400;
@@ -66,7 +69,7 @@ const char* Name(ServoState state) noexcept;
 struct ServoFeedback {
   ServoState state = ServoState::kAbsent;
   bool torque = false;            // as the servo itself last said
-  std::optional<float> position;  // own unit; of a Maestro the pulse that it sends
+  std::optional<float> position;  // own unit; of a controller of pulses the one that it makes
   Time position_read{};           // when
   std::optional<float> temperature_c;
   std::optional<float> load;  // -1..1 of what it can do; where the bus tells
@@ -101,6 +104,7 @@ enum class Setting : std::uint8_t {
   kBaudRate,      // as its register has it
   kPulseRange,    // the board sends another pulse than it was told: 0.25 us
   kSerialErrors,  // bits of wire::maestro::Error
+  kOutputs,       // of a receiver, fewer than the servo's id needs
 };
 const char* Name(Setting setting) noexcept;
 

@@ -125,6 +125,8 @@ void Motion::Decide(std::size_t i) noexcept {
 }
 
 void Motion::Drop(std::size_t i) noexcept {
+  // What a controller said of a pulse that was still being told is older than the last command.
+  if (channels_[i].torque && !channels_[i].actuator.reads_back) channels_[i].read.reset();
   axes_[i].Freeze();
   channels_[i].torque = false;
   channels_[i].idle = false;

@@ -294,10 +294,12 @@ TEST_F(AnimatronicTest, RefusesServosOnNoBusOnTwoOrOnAnotherDriver) {
 }
 
 TEST_F(AnimatronicTest, AServoMayArriveAsSlowlyAsItCrawlsAndGoALittleFasterThanItIsTold) {
+  rig.servos[0].neutral = 1600;
   const bus::ServoConfig config = ConfigOf(rig.servos[0], {.hot_c = 61});
   EXPECT_EQ(config.id, 1);
   EXPECT_EQ(config.min, 1000);
   EXPECT_EQ(config.max, 2000);
+  EXPECT_EQ(config.neutral, 1600);
   EXPECT_FLOAT_EQ(config.arrive_speed_per_s, 100);
   EXPECT_FLOAT_EQ(config.arrive_acceleration_per_s2, 2000);
   EXPECT_FLOAT_EQ(config.top_speed_per_s, 1250);

@@ -386,6 +386,20 @@ TEST_F(MotionTest, AWarmServoIsSlowerAndAHotOneGoesLimpAlone) {
   EXPECT_LE(Neck().position, 1800 + 150);
 }
 
+TEST_F(MotionTest, WhatAControllerSaidBeforeItsLastCommandIsForgottenWithTheTorque) {
+  Follow();
+  motion_->SetReading(0, 1500, now_);
+  Run(milliseconds(600), 1900, 2048);
+  ASSERT_EQ(Jaw().position, 1900);
+  motion_->SetHealth(0, 0);
+  Run(milliseconds(10), 1900, 2048);
+  ASSERT_FALSE(Jaw().torque);
+  motion_->SetHealth(0, 1);
+  Run(milliseconds(10), 1900, 2048);
+  ASSERT_TRUE(Jaw().torque);
+  EXPECT_EQ(Jaw().position, 1900);
+}
+
 TEST_F(MotionTest, AServoWithNothingToDoGoesLimpAndWakesWithoutACrawl) {
   rig_.servos[1].limp_after = seconds(2);
   Follow();
