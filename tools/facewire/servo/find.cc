@@ -1,6 +1,7 @@
 // facewire servo find: which servo buses are there.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -9,6 +10,7 @@
 #include "app/devices.h"
 #include "app/error.h"
 #include "hal/system_clock.h"
+#include "tools/facewire/servo/open.h"
 #include "tools/facewire/servo/search.h"
 #include "tools/facewire/servo/verbs.h"
 

@@ -62,7 +62,7 @@ std::string StablePort(const std::string& port) {
       if (std::filesystem::equivalent(link.path(), port, ignored)) return link.path().string();
     }
   }
-  return port;
+  return std::filesystem::absolute(port).lexically_normal().string();
 }
 
 }  // namespace

@@ -33,6 +33,10 @@ bool IsChain(Protocol protocol) {
   return protocol == Protocol::kDynamixel || protocol == Protocol::kFeetech;
 }
 
+bool SameServos(const FoundBus& a, const FoundBus& b) {
+  return std::ranges::equal(a.servos, b.servos, {}, &FoundServo::id, &FoundServo::id);
+}
+
 }  // namespace
 
 PortSearch SearchPort(const std::string& path, const PortMaker& make, hal::Clock& clock,
@@ -56,6 +60,8 @@ PortSearch SearchPort(const std::string& path, const PortMaker& make, hal::Clock
         silent += (silent.empty() ? "" : ", ") + std::to_string(rate);
         continue;
       }
+      // A line without a rate of its own (USB from end to end, a pseudo-terminal).
+      if (!search.buses.empty() && SameServos(search.buses.front(), *found)) return search;
       found->port = path;
       found->baud = rate;
       search.buses.push_back(std::move(*found));

@@ -12,12 +12,7 @@ void AddServo(CLI::App& facewire) {
   servo->get_formatter()->column_width(34);
   servo->footer("`facewire servo VERB --help` tells more about a verb.");
   AddServoFind(*servo);
-}
-
-std::string WithService(const std::string& line) {
-  return line.find("in use by another program") == std::string::npos
-             ? line
-             : line + "; if it is the service: sudo systemctl stop facewired";
+  AddServoList(*servo);
 }
 
 }  // namespace facewire::tools

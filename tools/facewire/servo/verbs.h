@@ -1,8 +1,6 @@
 #ifndef FACEWIRE_TOOLS_FACEWIRE_SERVO_VERBS_H_
 #define FACEWIRE_TOOLS_FACEWIRE_SERVO_VERBS_H_
 
-#include <string>
-
 namespace CLI {
 class App;
 }
@@ -11,9 +9,7 @@ class App;
 namespace facewire::tools {
 
 void AddServoFind(CLI::App& servo);
-
-// A line about a port that is in use ends with what to do when it is the service that has it.
-std::string WithService(const std::string& line);
+void AddServoList(CLI::App& servo);
 
 }  // namespace facewire::tools
 
