@@ -13,6 +13,9 @@ void AddServo(CLI::App& facewire) {
   servo->footer("`facewire servo VERB --help` tells more about a verb.");
   AddServoFind(*servo);
   AddServoList(*servo);
+  AddServoJog(*servo);
+  AddServoMove(*servo);
+  AddServoLimits(*servo);
 }
 
 }  // namespace facewire::tools

@@ -10,6 +10,9 @@ namespace facewire::tools {
 
 void AddServoFind(CLI::App& servo);
 void AddServoList(CLI::App& servo);
+void AddServoJog(CLI::App& servo);
+void AddServoMove(CLI::App& servo);
+void AddServoLimits(CLI::App& servo);
 
 }  // namespace facewire::tools
 
