@@ -30,7 +30,7 @@ std::string Without(const std::string& text, std::string_view prefix) {
 class SerialLine final : public hal::SerialPort {
  public:
   SerialLine(const std::string& path, int baud)
-      : path_(path), local_(path), pty_(path), tty_({.path = path, .baud = baud}) {}
+      : path_(path), local_(path), pty_(path, baud), tty_({.path = path, .baud = baud}) {}
 
   Result<> Open() override {
     hal::SerialPort* chosen = &tty_;

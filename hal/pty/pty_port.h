@@ -13,12 +13,13 @@ namespace facewire::hal::pty {
 Result<bool> IsPseudoTerminal(const std::string& path) noexcept;
 
 // The program's end (slave) of a pseudo-terminal that somebody else made: a simulator, socat, a
-// test, a PtyHost. It has no bit rate. When the maker closes its end, the line is hung up
+// test, a PtyHost. Bytes pass at any bit rate; the one that is given is only noted on the line,
+// where a simulated device may look at it. When the maker closes its end, the line is hung up
 // (kDisconnected) and its name is gone until it is made anew; a link in its place is followed at
 // every Open.
 class PtyPort final : public SerialPort {
  public:
-  explicit PtyPort(std::string path) : path_(std::move(path)) {}
+  explicit PtyPort(std::string path, int baud = 0) : path_(std::move(path)), baud_(baud) {}
 
   Result<> Open() override;
   Result<std::size_t> Write(std::span<const std::byte> bytes,
@@ -28,6 +29,7 @@ class PtyPort final : public SerialPort {
 
  private:
   std::string path_;
+  int baud_;  // 0: whatever is noted
   posix::UniqueFd fd_;
 };
 

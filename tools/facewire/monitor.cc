@@ -4,17 +4,16 @@
 
 #include <CLI/CLI.hpp>
 #include <cctype>
-#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "app/devices.h"
 #include "app/error.h"
 #include "hal/system_clock.h"
 #include "tools/facewire/commands.h"
+#include "tools/facewire/full_screen.h"
 #include "tools/facewire/monitor_recorder.h"
 #include "tools/facewire/monitor_session.h"
 #include "tools/facewire/stop_flag.h"
@@ -34,21 +33,6 @@ struct Options {
   bool summary = false;
   bool ascii = false;
   bool listen = false;
-};
-
-void WriteOut(std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  std::fflush(stdout);
-}
-
-// The other page of the terminal for as long as this lives, without a cursor: what was there before
-// comes back at the end.
-class FullScreen {
- public:
-  FullScreen() { WriteOut("\x1b[?1049h\x1b[?25l"); }
-  ~FullScreen() { WriteOut("\x1b[?25h\x1b[?1049l"); }
-  FullScreen(const FullScreen&) = delete;
-  FullScreen& operator=(const FullScreen&) = delete;
 };
 
 ScreenSize TerminalSize() {

@@ -79,7 +79,7 @@ class Counter {
 
 }  // namespace
 
-std::vector<RecordedPose> ReadRecording(const std::string& path, const Rig& rig) {
+std::vector<RecordedPose> ReadEveryPose(const std::string& path, const Rig& rig) {
   std::ifstream file(path);
   if (!file) throw app::BadInput("cannot read the recording " + path);
   const std::string contents((std::istreambuf_iterator<char>(file)),
@@ -113,10 +113,17 @@ std::vector<RecordedPose> ReadRecording(const std::string& path, const Rig& rig)
     for (std::size_t c = 0; c < columns.size(); ++c) {
       recorded.pose.values[c] = static_cast<float>(number(columns[c]));
     }
-    if (recording.empty() || recording.back().pose.seq != recorded.pose.seq)
-      recording.push_back(recorded);
+    recording.push_back(recorded);
   }
   if (recording.empty()) throw app::BadInput(path + ": it has no poses");
+  return recording;
+}
+
+std::vector<RecordedPose> ReadRecording(const std::string& path, const Rig& rig) {
+  std::vector<RecordedPose> recording = ReadEveryPose(path, rig);
+  const auto repeated = std::ranges::unique(
+      recording, {}, [](const RecordedPose& recorded) { return recorded.pose.seq; });
+  recording.erase(repeated.begin(), repeated.end());
   return recording;
 }
 

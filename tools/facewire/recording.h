@@ -19,8 +19,10 @@ struct RecordedPose {
 };
 
 // Reads what `facewire monitor --csv` wrote: frame,t_us,age_us,state,CHANNEL,... with a line a
-// pose. The columns of channels must be those of the rig. Of several poses for a frame (while a
-// face is lost, the service goes on sending), the first is kept. Throws BadInput.
+// pose. The columns of channels must be those of the rig. Throws BadInput.
+std::vector<RecordedPose> ReadEveryPose(const std::string& path, const Rig& rig);
+// The same; of several poses for a frame (while a face is lost, the service goes on sending), the
+// first is kept.
 std::vector<RecordedPose> ReadRecording(const std::string& path, const Rig& rig);
 
 // What can be said about a recording as a whole.

@@ -17,6 +17,7 @@
 #include "tools/facewire/face_reader.h"
 #include "tools/facewire/output_file.h"
 #include "tools/facewire/recording.h"
+#include "tools/facewire/servo_sheet.h"
 #include "tools/facewire/training_sheet.h"
 #include "tools/sheet/pick.h"
 #include "tools/sheet/png.h"
@@ -33,6 +34,9 @@ struct SheetOptions {
   std::size_t moments = 6;
   std::uint64_t first = 0;
   std::vector<std::string> figures;
+  std::string config;  // with the servos of `servos` instead of pictures
+  std::vector<std::string> servos;
+  bool check = false;
   FaceOptions face;
 };
 
@@ -144,14 +148,30 @@ void DrawRecording(const SheetOptions& options) {
     std::printf("  %-18s %s\n", figure.label.c_str(), figure.value.c_str());
 }
 
+void DrawServos(const SheetOptions& options) {
+  if (options.recording.empty() || options.config.empty())
+    throw app::BadInput("--servo needs a RECORDING and the service's --config");
+  const ServoSheet sheet = SheetOfServos({options.recording, options.config, options.servos});
+  OutputFile out(options.out);
+  WritePng(sheet.picture, out);
+  std::fputs(sheet.table.c_str(), stdout);
+  if (!options.check || sheet.strayed.empty()) return;
+  std::string all;
+  for (const std::string& servo : sheet.strayed) all += (all.empty() ? "" : "; ") + servo;
+  throw app::Failure("not every servo followed: " + all);
+}
+
 void DrawSheetFile(const SheetOptions& options) {
+  if (!options.servos.empty()) return DrawServos(options);
   if (!options.training.empty()) {
     OutputFile out(options.out);
     WritePng(SheetOfTraining(options.training, options.rows), out);
     return;
   }
   if (options.recording.empty() || options.face.input.empty() || options.rig.empty())
-    throw app::BadInput("a RECORDING with --video and --rig is needed, or --training F.profile");
+    throw app::BadInput(
+        "a RECORDING with --video and --rig is needed, or one with --config and --servo, or "
+        "--training F.profile");
   DrawRecording(options);
 }
 
@@ -161,8 +181,9 @@ void AddSheet(CLI::App& facewire) {
   auto options = std::make_shared<SheetOptions>();
   CLI::App* command = facewire.add_subcommand(
       "sheet",
-      "Draw a contact sheet: moments of a video beside what the character was told, or the rows of "
-      "a training set beside what the others predict");
+      "Draw a contact sheet: moments of a video beside what the character was told, what servos "
+      "did beside what they were told, or the rows of a training set beside what the others "
+      "predict");
   CLI::Option* recording = command->add_option(
       "RECORDING", options->recording, "What `facewire monitor --csv` wrote of the service's line");
   CLI::Option* video =
@@ -187,6 +208,23 @@ void AddSheet(CLI::App& facewire) {
                       "Only look at so many frames: where a looped video turned round");
   command->add_option("--figure", options->figures,
                       "LABEL=VALUE: one more figure for the sheet's head; may be repeated");
+  CLI::Option* servos =
+      command
+          ->add_option("--servo", options->servos,
+                       "NAME=TRACE:INDEX, as jaw=mouth.csv:0: instead of pictures, draw what the "
+                       "rig's servo NAME was to do and did, by row INDEX of a simulated bus's "
+                       "trace; may be repeated")
+          ->excludes(video)
+          ->excludes(rig)
+          ->excludes(training);
+  command
+      ->add_option("--config", options->config,
+                   "The service's configuration, with the servos' buses")
+      ->needs(servos);
+  command
+      ->add_flag("--check", options->check,
+                 "Fail when a servo did not follow, or had torque at the end")
+      ->needs(servos);
   AddFaceOptions(*command, options->face);
   command->callback([options] { DrawSheetFile(*options); });
 }
