@@ -1,11 +1,14 @@
 #include "tools/facewire/report_text.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
 namespace facewire::tools {
 namespace {
+
+using testing::HasSubstr;
 
 TEST(ReportText, TellsHowTheLineFared) {
   const auto text = ReportText(
