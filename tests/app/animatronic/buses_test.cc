@@ -54,11 +54,10 @@ class Buses : public testing::Test {
     Start("xl330", {"--servos", "1", "--baud", "57600"});
   }
   void Start(const std::string& kind, std::vector<std::string> options) {
-    options.insert(options.begin(), {SIM_BUS, kind, "--link", (scratch_ / kind).string(), "--trace",
-                                     (scratch_ / (kind + ".csv")).string()});
-    sims_.push_back(
-        std::make_unique<Process>(options, scratch_ / (kind + ".out"), scratch_ / (kind + ".err")));
-    EXPECT_TRUE(Soon([&] { return std::filesystem::is_symlink(scratch_ / kind); }));
+    options.insert(options.begin(),
+                   {SIM_BUS, kind, "--link", File(kind), "--trace", File(kind + ".csv")});
+    sims_.push_back(std::make_unique<Process>(options, File(kind + ".out"), File(kind + ".err")));
+    EXPECT_TRUE(Soon([&] { return std::filesystem::is_symlink(File(kind)); }));
   }
   template <class Condition>
   static bool Soon(Condition condition) {
@@ -69,6 +68,8 @@ class Buses : public testing::Test {
     return true;
   }
 
+  std::string File(const std::string& name) const { return (scratch_ / name.c_str()).string(); }
+
   struct Trace {
     double least = 1e9;
     double most = -1e9;
@@ -77,7 +78,7 @@ class Buses : public testing::Test {
   };
   // Of servo 0, from when it first had torque.
   Trace Read(const std::string& kind) const {
-    std::istringstream rows(Scratch::Read(scratch_ / (kind + ".csv")));
+    std::istringstream rows(Scratch::Read(File(kind + ".csv")));
     Trace trace;
     for (std::string row; std::getline(rows, row);) {
       int servo = 0;

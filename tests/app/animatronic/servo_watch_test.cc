@@ -50,7 +50,8 @@ TEST_F(Watch, NamesTheServoThatIsHotAndItsDegrees) {
   EXPECT_EQ(In(seconds(10)),
             "facewired: servo jaw (bus chain, id 1): is too hot, 66 degrees Celsius: let go until "
             "it has 50\n");
-  jaw() = {.state = bus::ServoState::kOn};
+  jaw() = {};
+  jaw().state = bus::ServoState::kOn;
   EXPECT_EQ(In(seconds(10)), "facewired: servo jaw (bus chain, id 1): is well again\n");
 }
 
