@@ -77,7 +77,8 @@ TimeSpan SpanOf(const servo::Servo& servo, const Curve& parameter,
   const double near = std::max(4.0 * BandOf(servo), 0.02 * (servo.max - servo.min));
   const auto met = std::ranges::find_if(rows, [&](const ServoRow& row) {
     return row.torque_on && row.t_s >= parameter.front().t_s &&
-           std::abs(row.goal - ValueAt(parameter, row.t_s)) <= near;
+           std::abs(row.goal - ValueAt(parameter, row.t_s)) <= near &&
+           std::abs(row.commanded - row.goal) <= near;
   });
   const auto off = std::find_if(met, rows.end(), [](const ServoRow& r) { return !r.torque_on; });
   TimeSpan span{INFINITY, parameter.back().t_s};
@@ -172,7 +173,8 @@ ServoFollowing Measure(const servo::Servo& servo, const Curve& parameter,
   const double early_s = following.span.from_s - kLongestLag_s;
   const auto wanted = OnGrid(parameter, early_s, count + early, false);
   const auto goals = OnGrid(CurveOf(rows, &ServoRow::goal), early_s, count + early, true);
-  const auto commanded = OnGrid(CurveOf(rows, &ServoRow::commanded), early_s, count + early, true);
+  const auto commanded =
+      OnGrid(CurveOf(rows, &ServoRow::commanded), following.span.from_s, count, true);
   const auto positions =
       OnGrid(CurveOf(rows, &ServoRow::position), following.span.from_s, count, false);
 
@@ -184,7 +186,7 @@ ServoFollowing Measure(const servo::Servo& servo, const Curve& parameter,
   const bool moves = following.moved > 4 * BandOf(servo);
   following.command = Compare(wanted, goals_now, early, moves);
   following.position = Compare(goals, positions, early, moves);
-  following.unresolved = Unresolved(goals, commanded);
+  following.unresolved = Unresolved(goals_now, commanded);
   following.liveliest = Liveliest(wanted_now, following.span);
   return following;
 }
@@ -195,10 +197,10 @@ std::string WhyNot(const servo::Servo& servo, const ServoFollowing& following, d
   if (following.beyond_limits > step / 2) {
     return "was told to go " + Number("%.1f", following.beyond_limits) + " beyond its limits";
   }
-  if (following.command.lag_ms > kLatest_ms) return "gets its commands too late";
   if (following.command.rms > most_off) return "gets other commands than its parameter asks for";
-  if (following.position.lag_ms > kLatest_ms) return "moves too late";
+  if (following.command.lag_ms > kLatest_ms) return "gets its commands too late";
   if (following.position.rms > most_off) return "does not go where it is told";
+  if (following.position.lag_ms > kLatest_ms) return "moves too late";
   if (following.unresolved > step) {
     return "comes to rest " + Number("%.2f", following.unresolved) + " from its command";
   }

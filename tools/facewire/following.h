@@ -32,8 +32,9 @@ struct Following {
 };
 inline constexpr double kLongestLag_s = 0.5;
 
-// A servo from its parameter to its shaft, in its own unit, from kSettled_s after its command first
-// met the parameter (until then it crawls) until the torque went or the poses ended.
+// A servo from its parameter to its shaft, in its own unit, from kSettled_s after its command, and
+// what the servo makes of it, first met the parameter (until then both crawl) until the torque went
+// or the poses ended.
 struct ServoFollowing {
   TimeSpan span{};
   double moved = 0;    // of the parameter, from its least to its most

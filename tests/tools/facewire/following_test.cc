@@ -92,6 +92,16 @@ TEST(Following, BeginsWhenTheCrawlIsOver) {
   EXPECT_NEAR(f.command.lag_ms, 50, 2);
 }
 
+TEST(Following, BeginsWhenTheServosOwnCrawlIsOverToo) {
+  auto rows = Rows(Swing, 0.05, 0.03);
+  for (ServoRow& row : rows) {
+    if (row.t_s < 5) row.commanded = row.position = 1000;  // its goal was at the parameter at once
+  }
+  const auto f = Measure(Jaw(), Poses(Swing), rows);
+  EXPECT_NEAR(f.span.from_s, 5 + kSettled_s, 0.01);
+  EXPECT_EQ(f.unresolved, 0);
+}
+
 TEST(Following, EndsWithTheTorque) {
   const auto f = Measure(Jaw(), Poses(Swing), Rows(Swing, 0.05, 0.03, 8));
   EXPECT_NEAR(f.span.to_s, 8, 0.01);
