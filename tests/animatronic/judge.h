@@ -54,7 +54,12 @@ struct Wire {
   Duration reaction{};   // from what is told to what the bus has taken: a tick and the bytes' time
   Duration lets_go{};    // from the bus's word to a motor without current
   Duration held_back{};  // a chain says nothing while it waits for a reply; but a stop
-  double own_speed = 0;  // per second, of the servo's path; 0: no such path, or unlimited
+  // One damaged packet in 256 passes its checksum: a strange goal on a line that is known to be bad
+  // is the protocol's fault. It is counted; within the limits and no leap it has to be all the
+  // same.
+  bool weak_sum = false;
+  std::optional<double> home{};  // where a board sends its servo by itself
+  double own_speed = 0;          // per second, of the servo's path; 0: no such path, or unlimited
 };
 
 // Watches every word to the servos and every millisecond of the servos, and writes down what breaks
@@ -85,6 +90,8 @@ class Judge {
   std::string Report() const;  // a line for each violation; empty without
   // How often it looked at a servo with torque, so that silence means something.
   std::uint64_t looks() const { return looks_; }
+  // Goals that a damaged packet with a good checksum made (Wire::weak_sum).
+  std::size_t forged() const { return forged_; }
 
  private:
   struct Word {
@@ -135,6 +142,7 @@ class Judge {
   std::vector<Violation> violations_;
   std::array<std::size_t, kRules> counts_{};
   std::uint64_t looks_ = 0;
+  std::size_t forged_ = 0;
 };
 
 }  // namespace facewire::stage

@@ -101,8 +101,8 @@ TEST_F(JudgeTest, SeesAStepThatIsTooLarge) {
 }
 
 TEST_F(JudgeTest, SeesATurnThatIsTooSharp) {
-  // 30720 counts/s^2: 3 counts a tick and tick, and 2 of rounding.
-  Tell(0, 2048 + 6);
+  // 61440 counts/s^2: 6 counts a tick and tick, and 2 of rounding.
+  Tell(0, 2048 + 9);
   ExpectOnly(Rule::kAcceleration);
 }
 
@@ -116,6 +116,20 @@ TEST_F(JudgeTest, SeesAServoThatIsFasterThanItsOwnLimit) {
 
 TEST_F(JudgeTest, SeesAGoalThatNobodyTold) {
   seen[0].goal = 2049;
+  Look(milliseconds(1));
+  ExpectOnly(Rule::kStrange);
+}
+
+TEST_F(JudgeTest, ForgivesAForgeryOnlyWhereTheSumIsWeakAndTheLineIsBad) {
+  judge = std::make_unique<Judge>(
+      rig, std::vector<Wire>(2, {.step = 1, .reaction = milliseconds(12), .weak_sum = true}));
+  Tick();
+  seen[0].goal = 2060;
+  judge->Unheard(0, now + milliseconds(1));
+  Look(milliseconds(1));
+  EXPECT_EQ(judge->Report(), "");
+  EXPECT_EQ(judge->forged(), 1U);
+  seen[0].goal = 2061;
   Look(milliseconds(1));
   ExpectOnly(Rule::kStrange);
 }

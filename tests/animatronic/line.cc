@@ -19,7 +19,7 @@ using std::chrono::milliseconds;
 
 constexpr double kRange = 90;           // degrees
 constexpr double kSpeed = 270;          // degrees a second
-constexpr double kAcceleration = 2700;  // degrees a second and second
+constexpr double kAcceleration = 5400;  // degrees a second and second
 constexpr double kCrawl = 18;           // degrees a second
 constexpr double kDeadBand = 0.45;      // degrees
 constexpr std::uint32_t kBaud = 1'000'000;
@@ -213,14 +213,17 @@ Wire Line::wire(std::size_t servo) const {
   const bus::ServoConfig limits = animatronic::ConfigOf(servos_[servo], {});
   const bool pulses = IsPulses(options_.kind);
   const bool receiver = options_.kind == Kind::kReceiver;
-  return {.step = driver_->traits().step,
-          .reaction = options_.period + kBytesTime,
-          .lets_go = receiver ? kReceiverFrames
-                     : pulses ? kPulseFrames
-                              : Duration{},
-          .held_back = pulses ? Duration{} : kWaits,
-          // A Dynamixel's speeds are whole steps of 15.6 counts a second.
-          .own_speed = pulses ? 0.0 : limits.top_speed_per_s + 16.0};
+  return {
+      .step = driver_->traits().step,
+      .reaction = options_.period + kBytesTime,
+      .lets_go = receiver ? kReceiverFrames
+                 : pulses ? kPulseFrames
+                          : Duration{},
+      .held_back = pulses ? Duration{} : kWaits,
+      .weak_sum = options_.kind == Kind::kSts || options_.kind == Kind::kScs,
+      .home = options_.home_neutral ? std::optional<double>(servos_[servo].neutral) : std::nullopt,
+      // A Dynamixel's speeds are whole steps of 15.6 counts a second.
+      .own_speed = pulses ? 0.0 : limits.top_speed_per_s + 16.0};
 }
 
 void Line::ToServos(std::span<const std::byte> bytes, Time world) {
@@ -229,9 +232,7 @@ void Line::ToServos(std::span<const std::byte> bytes, Time world) {
     bytes = bytes.first(passes);
     *left_ -= passes;
   }
-  if (deaf || bytes.empty()) return;
-  sent_ += bytes.size();
-  bus_->Receive(bytes, world);
+  if (!deaf && !bytes.empty()) bus_->Receive(bytes, world);
   if (left_ && *left_ == 0) deaf = silent = true;
 }
 

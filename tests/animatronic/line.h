@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -82,9 +81,6 @@ class Line {
   bool deaf = false;    // nothing gets to the servos
   bool silent = false;  // nothing gets to the host
 
-  // Every byte that got to the servos since the last call, for tests that count them.
-  std::size_t TakeSent() { return std::exchange(sent_, 0); }
-
  private:
   void BuildMaestro();
   void BuildReceiver();
@@ -98,7 +94,6 @@ class Line {
   bus::ServoBus* driver_ = nullptr;
   std::unique_ptr<sim::Bus> bus_;
   std::optional<std::size_t> left_;  // until the cable is cut
-  std::size_t sent_ = 0;
 };
 
 }  // namespace facewire::stage

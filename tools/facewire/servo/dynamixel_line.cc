@@ -83,12 +83,4 @@ std::optional<dxl::StatusError> DynamixelLine::Ask(std::uint8_t id,
   return error;
 }
 
-std::optional<dxl::StatusError> DynamixelLine::Write(std::uint8_t id, dxl::Register what,
-                                                     std::uint32_t value) {
-  Packet buffer;
-  std::array<std::byte, 4> data;
-  for (std::size_t i = 0; i < data.size(); ++i) data[i] = static_cast<std::byte>(value >> 8U * i);
-  return Ask(id, *dxl::Write(id, what.address, std::span(data).first(what.bytes), buffer));
-}
-
 }  // namespace facewire::tools

@@ -30,9 +30,6 @@ class DynamixelLine {
   // Sends a packet that is answered with an empty status. nullopt: no answer.
   std::optional<wire::dynamixel::StatusError> Ask(std::uint8_t id,
                                                   std::span<const std::byte> packet);
-  // Writes a register, its bytes from `value`.
-  std::optional<wire::dynamixel::StatusError> Write(std::uint8_t id, wire::dynamixel::Register what,
-                                                    std::uint32_t value);
 
  private:
   Line& line_;

@@ -25,6 +25,8 @@ class FeetechLine {
   // nullopt: nobody has this id. Reads instead of pinging: an adapter that echoes answers every
   // ping itself, and a read of two bytes too, but not one of three.
   std::optional<Servo> Find(std::uint8_t id);
+  // As they are in its memory; nullopt: no answer.
+  std::optional<std::vector<std::byte>> Bytes(std::uint8_t id, wire::feetech::Register what);
   // One or two bytes in the series' order; nullopt: no answer.
   std::optional<std::uint16_t> Read(std::uint8_t id, wire::feetech::Register what,
                                     bus::FeetechSeries series);
@@ -32,8 +34,6 @@ class FeetechLine {
   bool Ask(std::uint8_t answerer, std::span<const std::byte> packet);
 
  private:
-  std::optional<std::vector<std::byte>> Bytes(std::uint8_t id, wire::feetech::Register what);
-
   Line& line_;
 };
 

@@ -118,8 +118,12 @@ std::string Jog::Draw() const {
   out += "  told   " + (mover_.command().torque ? Text("%.6g ", mover_.command().position) + unit
                                                 : std::string("limp"));
   if (mover_.goal() && !mover_.arrived()) out += "  on its way to " + Text("%.6g", *mover_.goal());
-  out += "\n  is at  " + (said.position ? Text("%.6g ", *said.position) + unit
-                                        : std::string("unknown: this bus does not tell"));
+  if (mover_.reads_back()) {
+    out +=
+        "\n  is at  " + (said.position ? Text("%.6g ", *said.position) + unit : std::string("-"));
+  } else {
+    out += "\n  is at  ? (nobody can tell; the servo goes where its pulses say)";
+  }
   if (said.temperature_c) out += Text("   %.0f C", *said.temperature_c);
   if (said.load) out += Text("   load %.0f %%", *said.load * 100);
   if (said.voltage_v) out += Text("   %.1f V", *said.voltage_v);

@@ -16,6 +16,8 @@ void AddServo(CLI::App& facewire) {
   AddServoJog(*servo);
   AddServoMove(*servo);
   AddServoLimits(*servo);
+  AddServoSet(*servo);
+  AddServoReboot(*servo);
 }
 
 }  // namespace facewire::tools

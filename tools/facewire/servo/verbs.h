@@ -13,6 +13,8 @@ void AddServoList(CLI::App& servo);
 void AddServoJog(CLI::App& servo);
 void AddServoMove(CLI::App& servo);
 void AddServoLimits(CLI::App& servo);
+void AddServoSet(CLI::App& servo);
+void AddServoReboot(CLI::App& servo);
 
 }  // namespace facewire::tools
 
