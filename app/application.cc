@@ -174,6 +174,7 @@ void Application::Open() {
   if (output_) {
     output_->Open();
     servos_.emplace(*output_, clock_);
+    servo_watch_.emplace(journal_, servo_rig_, config_.buses);
   }
   StartCamera(*camera_, camera_address_);
 
@@ -285,6 +286,9 @@ void Application::Run(Requests& requests, Duration limit) {
   const Time media_began = service_->now();
   while (service_->Tick()) {
     observer_.Look(*service_, clock_.Now());
+    if (servo_watch_) {
+      servo_watch_->Look(*service_->servos(), service_->servos_powered(), clock_.Now());
+    }
     RunErrands();
     if (requests.quit.load() > 0) service_->Quit();
     if (requests.quit.load() > 1) break;
@@ -312,7 +316,9 @@ void Application::RunErrands() {
                               .state_folder = config_.neutral.folder.native(),
                               .storage_problem = storage_problem_,
                               .stop_problem = latch_.reason(),
-                              .searching_after = observer_.searching_after()};
+                              .searching_after = observer_.searching_after(),
+                              .buses = config_.buses,
+                              .servos = &servo_rig_};
     service_->Answer(*errand, wire::CommandResult::kOk, 0, ToJson(report).data());
   }
 }

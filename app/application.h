@@ -12,6 +12,7 @@
 
 #include "app/animatronic/output_thread.h"
 #include "app/animatronic/servo_output.h"
+#include "app/animatronic/servo_watch.h"
 #include "app/cast.h"
 #include "app/config.h"
 #include "app/control.h"
@@ -110,6 +111,7 @@ class Application {
   servo::ServoRig servo_rig_;  // of the servos that are driven; a reload changes nothing about it
   std::optional<ServoOutput> output_;  // none without a [[bus]]
   std::optional<OutputThread> servos_;
+  std::optional<ServoWatch> servo_watch_;
   std::string storage_problem_;  // why the state folder takes nothing; "": it does
   StopLatch latch_;
   std::optional<Service> service_;

@@ -17,7 +17,7 @@ namespace facewire::app {
 namespace {
 
 constexpr const char* kSocket = "/run/systemd/journal/socket";
-constexpr std::array<EventKind, 21> kKinds = {{
+constexpr std::array<EventKind, 23> kKinds = {{
     {Event::kReady, "ready", "cfbb39a722834f90b1acec2029de4891", 6},
     {Event::kSearching, "searching", "ca55979e587e4155a6ab52450309041c", 6},
     {Event::kState, "state", "3718b0ea97294539811e03f1635db321", 6},
@@ -39,6 +39,8 @@ constexpr std::array<EventKind, 21> kKinds = {{
     {Event::kFailure, "failure", "f2865d6f91ff4b59bfb2f7b95cc81c21", 3},
     {Event::kEnded, "ended", "8de7b38d27c143bb83bc80ede288d12d", 6},
     {Event::kBoardLine, "board_line", "9179c9dc6fb1456e8a80dabf637a56d5", 4},
+    {Event::kServoBus, "servo_bus", "2f7e263c25f74f8ab2d3fedbf9e1fd32", 4},
+    {Event::kServo, "servo", "8aa4f4cb8bbf40c6830c0e593d857dbd", 4},
 }};
 
 // The longest line and reason that are written; what is longer is cut.

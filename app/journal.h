@@ -34,6 +34,8 @@ enum class Event : std::uint8_t {
   kFailure,            // something failed; not started, or ended
   kEnded,              // a summary of the run
   kBoardLine,          // what a GPIO line did, or why it fails
+  kServoBus,           // a servo bus is lost, or back
+  kServo,              // a servo is lost, hot, refused, or well again
 };
 
 struct EventKind {

@@ -76,7 +76,7 @@ Button::Press Panel::ReadButton(Time now) noexcept {
 
 void Panel::Show(const PanelView& view) noexcept {
   const bool light = LightOf(view);
-  const bool power = PowerOf(view);
+  const bool power = powered_ = PowerOf(view);
   Set(status_led_, light, view.now, kSet);
   Set(servo_power_, power, view.now, power ? kOn : kOff);
 }

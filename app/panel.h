@@ -53,6 +53,9 @@ class Panel {
   // release an emergency stop.
   Button::Press ReadButton(Time now) noexcept;
 
+  // False: the line for the servos' power is off.
+  bool servos_powered() const noexcept { return servo_power_.line == nullptr || powered_; }
+
   // Sets the outputs.
   void Show(const PanelView& view) noexcept;
 
@@ -82,6 +85,7 @@ class Panel {
 
   bool stop_open_ = false;
   Button button_;
+  bool powered_ = false;
   std::optional<Time> heard_;  // when the line last took a pose; none since the last fault
   ServiceState shown_ = ServiceState::kStarting;
   bool shown_calibrating_ = false;

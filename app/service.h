@@ -116,6 +116,8 @@ class Service {
   const ServiceStats& stats() const noexcept { return stats_; }
   // Of the last tick; null: there is no servo bus.
   const ServoReport* servos() const noexcept { return servo_report_; }
+  // False while the board's line keeps the servos without power.
+  bool servos_powered() const noexcept { return panel_.servos_powered(); }
   // Of the last second that a status was made for.
   const wire::Status& status() const noexcept { return status_; }
 

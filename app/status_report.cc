@@ -1,17 +1,21 @@
 #include "app/status_report.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <optional>
 
+#include "app/animatronic/servo_words.h"
 #include "app/report.h"
 
 namespace facewire::app {
 namespace {
 
-class Object {
+// Writes JSON into a fixed text.
+class Json {
  public:
-  explicit Object(std::array<char, kMaxReportBytes>& out) noexcept : out_(out) {}
+  explicit Json(std::array<char, kMaxReportBytes>& out) noexcept : out_(out) { Begin('{'); }
 
-  Object& Text(const char* key, std::string_view value) noexcept {
+  Json& Text(const char* key, std::string_view value) noexcept {
     Key(key);
     Put('"');
     for (const char c : value) {
@@ -21,21 +25,46 @@ class Object {
     Put('"');
     return *this;
   }
-  Object& Count(const char* key, std::uint64_t value) noexcept {
+  Json& Count(const char* key, std::uint64_t value) noexcept {
     return Number(key, static_cast<double>(value), 0);
   }
-  Object& Number(const char* key, double value, int decimals) noexcept {
+  Json& Number(const char* key, double value, int decimals) noexcept {
     Key(key);
     std::array<char, 40> text;
     (void)std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
     for (const char* c = text.data(); *c != '\0'; ++c) Put(*c);
     return *this;
   }
-  void Done() noexcept { Put('}'); }
+  // What nobody knows is left out.
+  Json& Number(const char* key, const std::optional<float>& value, int decimals) noexcept {
+    return value ? Number(key, static_cast<double>(*value), decimals) : *this;
+  }
+  // An array of objects, each begun by Next.
+  void Array(const char* key) noexcept {
+    Key(key);
+    Begin('[');
+  }
+  Json& Next() noexcept {
+    Comma();
+    Begin('{');
+    return *this;
+  }
+  void End(char bracket) noexcept {
+    Put(bracket);
+    first_ = false;
+  }
 
  private:
+  void Begin(char bracket) noexcept {
+    Put(bracket);
+    first_ = true;
+  }
+  void Comma() noexcept {
+    if (!first_) Put(',');
+    first_ = false;
+  }
   void Key(const char* key) noexcept {
-    Put(size_ == 0 ? '{' : ',');
+    Comma();
     Put('"');
     for (; *key != '\0'; ++key) Put(*key);
     Put('"');
@@ -47,7 +76,46 @@ class Object {
 
   std::array<char, kMaxReportBytes>& out_;
   std::size_t size_ = 0;
+  bool first_ = true;
 };
+
+void AddBuses(const StatusReport& report, const ServoReport& now, Json& o) noexcept {
+  o.Array("buses");
+  for (std::size_t i = 0; i < std::min<std::size_t>(now.bus_count, report.buses.size()); ++i) {
+    const ServoBusConfig& bus = report.buses[i];
+    const ServoReport::Bus& b = now.buses[i];
+    o.Next().Text("name", bus.name).Text("kind", Name(bus.kind)).Text("port", bus.port);
+    o.Text("port_state", Name(b.port)).Text("state", bus::Name(b.state));
+    o.Text("fault", b.fault == bus::BusFault::kNone ? "" : bus::Name(b.fault));
+    o.Count("bytes_out", b.counters.bytes_out).Count("bytes_in", b.counters.bytes_in);
+    o.Count("losses", b.counters.losses).Count("reopens", b.counters.reopens);
+    o.Count("questions", b.questions).Count("lost", b.lost);
+    o.Count("torque_lost", b.torque_lost).Count("serial_errors", b.serial_errors);
+    o.End('}');
+  }
+  o.End(']');
+}
+
+void AddServos(const StatusReport& report, const ServoReport& now, Json& o) noexcept {
+  o.Array("servos");
+  for (std::size_t i = 0; i < now.servo_count; ++i) {
+    const servo::Servo& servo = report.servos->servos[i];
+    const servo::Command& command = now.servos[i].command;
+    const bus::ServoFeedback& feedback = now.servos[i].feedback;
+    o.Next().Text("name", servo.name.view()).Text("bus", servo.bus.view()).Count("id", servo.id);
+    o.Text("state", bus::Name(feedback.state)).Text("activity", Name(command.activity));
+    o.Text("torque", feedback.torque ? "on" : "off");
+    o.Number("commanded", static_cast<double>(command.position), 2);
+    o.Number("position", feedback.position, 2);
+    o.Number("temperature_c", feedback.temperature_c, 0);
+    o.Number("load", feedback.load, 2).Number("voltage_v", feedback.voltage_v, 1);
+    o.Number("factor", static_cast<double>(feedback.factor), 2);
+    o.Text("reason", feedback.reason == bus::Reason::kNone ? "" : bus::Name(feedback.reason));
+    o.Text("faults", feedback.faults == 0 ? "" : FaultWords(feedback.faults).data());
+    o.Count("lost", feedback.lost).End('}');
+  }
+  o.End(']');
+}
 
 const char* Name(Service::Camera camera) noexcept {
   switch (camera) {
@@ -83,7 +151,7 @@ std::array<char, kMaxReportBytes> ToJson(const StatusReport& report) noexcept {
   const ServiceStats& stats = service.stats();
   const HostLineCounters& line = report.line.counters();
   std::array<char, kMaxReportBytes> text{};
-  Object o(text);
+  Json o(text);
   o.Text("version", FACEWIRE_VERSION);
   o.Text("state", facewire::Name(service.state())).Text("reason", service.reason());
   o.Text("ailment", service.Ailment()).Count("uptime_s", status.uptime_s);
@@ -109,7 +177,12 @@ std::array<char, kMaxReportBytes> ToJson(const StatusReport& report) noexcept {
   o.Count("commands", stats.commands);
   o.Number("searching_after_s", static_cast<double>(Seconds(report.searching_after)), 2);
   o.Count("resident_bytes", ResidentBytes()).Count("threads", ThreadCount());
-  o.Done();
+  if (const ServoReport* servos = service.servos(); servos != nullptr) {
+    o.Count("servo_ticks", servos->ticks).Count("servo_ticks_late", servos->late);
+    AddBuses(report, *servos, o);
+    AddServos(report, *servos, o);
+  }
+  o.End('}');
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <vector>
 
 #include "tools/facewire/json_reader.h"
 
@@ -12,6 +13,10 @@ namespace facewire::tools {
 namespace {
 
 using Members = std::map<std::string, std::string, std::less<>>;
+struct Report {
+  Members members;
+  std::map<std::string, std::vector<Members>, std::less<>> lists;  // of objects
+};
 
 std::string Unescaped(std::string_view text) {
   std::string plain;
@@ -28,23 +33,108 @@ std::string Shown(double number) {
   return text.data();
 }
 
-std::optional<Members> Read(std::string_view text) {
-  json::Reader reader(text);
+// A number or text of an object; false when it is neither.
+bool ReadMember(json::Reader& reader, std::string_view key, Members& members) {
+  if (const auto number = reader.Number()) {
+    members.emplace(key, Shown(*number));
+  } else if (const auto words = reader.String()) {
+    members.emplace(key, Unescaped(*words));
+  } else {
+    return false;
+  }
+  return true;
+}
+
+std::optional<Members> ReadFlat(json::Reader& reader) {
   Members members;
   if (!reader.Take('{')) return std::nullopt;
   do {
     const auto key = reader.String();
     if (!key || !reader.Take(':')) return std::nullopt;
-    if (const auto number = reader.Number()) {
-      members.emplace(*key, Shown(*number));
-    } else if (const auto words = reader.String()) {
-      members.emplace(*key, Unescaped(*words));
+    if (!ReadMember(reader, *key, members) && !reader.Skip()) return std::nullopt;
+  } while (reader.Take(','));
+  if (!reader.Take('}')) return std::nullopt;
+  return members;
+}
+
+// False when it is no array of objects.
+bool ReadList(json::Reader& reader, std::vector<Members>& list) {
+  if (!reader.Take('[')) return false;
+  if (reader.Take(']')) return true;
+  do {
+    const auto members = ReadFlat(reader);
+    if (!members) return false;
+    list.push_back(*members);
+  } while (reader.Take(','));
+  return reader.Take(']');
+}
+
+std::optional<Report> Read(std::string_view text) {
+  json::Reader reader(text);
+  Report report;
+  if (!reader.Take('{')) return std::nullopt;
+  do {
+    const auto key = reader.String();
+    if (!key || !reader.Take(':')) return std::nullopt;
+    if (ReadMember(reader, *key, report.members)) continue;
+    if (*key == "buses" || *key == "servos") {
+      if (!ReadList(reader, report.lists[std::string(*key)])) return std::nullopt;
     } else if (!reader.Skip()) {
       return std::nullopt;
     }
   } while (reader.Take(','));
   if (!reader.Take('}') || !reader.AtEnd()) return std::nullopt;
-  return members;
+  return report;
+}
+
+std::string ValueOf(const Members& members, std::string_view key) {
+  const auto found = members.find(key);
+  return found == members.end() ? "?" : found->second;
+}
+
+// One column of a table of servos: as wide as it needs, "-" where a servo does not tell.
+std::string Column(const Members& servo, std::string_view key, std::size_t width,
+                   std::string_view unit) {
+  std::string text = servo.contains(key) ? ValueOf(servo, key) + std::string(unit) : "-";
+  if (text.size() < width) text.insert(0, width - text.size(), ' ');
+  return text;
+}
+
+std::string BusLines(const Report& report) {
+  std::string text;
+  const auto buses = report.lists.find("buses");
+  if (buses == report.lists.end()) return text;
+  for (const Members& bus : buses->second) {
+    const std::string fault = ValueOf(bus, "fault");
+    text += "bus      " + ValueOf(bus, "name") + ": " + ValueOf(bus, "kind") + ", " +
+            ValueOf(bus, "port") + ": " + ValueOf(bus, "port_state") + ", " +
+            ValueOf(bus, "state") + (fault.empty() || fault == "?" ? "" : ": " + fault) + ", " +
+            ValueOf(bus, "questions") + " questions, " + ValueOf(bus, "lost") +
+            " without an answer, lost " + ValueOf(bus, "losses") + " times\n";
+  }
+  return text;
+}
+
+std::string ServoLines(const Report& report) {
+  std::string text;
+  const auto servos = report.lists.find("servos");
+  if (servos == report.lists.end()) return text;
+  for (const Members& servo : servos->second) {
+    std::string name =
+        ValueOf(servo, "name") + " (" + ValueOf(servo, "bus") + " " + ValueOf(servo, "id") + ")";
+    if (name.size() < 24) name.resize(24, ' ');
+    std::string state = ValueOf(servo, "state") + ", " + ValueOf(servo, "activity");
+    if (state.size() < 20) state.resize(20, ' ');
+    text += "servo    " + name + " " + state + " at" + Column(servo, "position", 8, "") + ", told" +
+            Column(servo, "commanded", 8, "") + Column(servo, "temperature_c", 6, " C") + ", load" +
+            Column(servo, "load", 6, "") + Column(servo, "voltage_v", 7, " V");
+    for (const char* key : {"reason", "faults"}) {
+      const std::string words = ValueOf(servo, key);
+      if (!words.empty() && words != "?") text += ", " + words;
+    }
+    text += "\n";
+  }
+  return text;
 }
 
 // "1 h 5 min", "5 min 3 s", "3 s"
@@ -58,12 +148,9 @@ std::string TimeText(const std::string& seconds) {
 }  // namespace
 
 std::optional<std::string> ReportText(std::string_view json) {
-  const auto members = Read(json);
-  if (!members) return std::nullopt;
-  const auto get = [&](std::string_view key) -> std::string {
-    const auto found = members->find(key);
-    return found == members->end() ? "?" : found->second;
-  };
+  const auto report = Read(json);
+  if (!report) return std::nullopt;
+  const auto get = [&](std::string_view key) { return ValueOf(report->members, key); };
   const auto after = [&](const char* mark, std::string_view key) -> std::string {
     const std::string words = get(key);
     return words.empty() || words == "?" ? "" : mark + words;
@@ -84,6 +171,7 @@ std::optional<std::string> ReportText(std::string_view json) {
             get("line_errors") + " errors, lost " + get("line_losses") + " times, opened again " +
             get("line_reopens") + " times\n";
   }
+  text += BusLines(*report) + ServoLines(*report);
   text += "face     lost " + get("losses") + " times\n";
   text += "neutral  " + get("neutral") + ", in " + get("state_folder") + "\n";
   if (const std::string problem = after("", "storage_problem"); !problem.empty()) {
