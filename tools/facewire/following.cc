@@ -16,9 +16,9 @@ namespace {
 constexpr std::string_view kHeader =
     "t_us,servo,event,detail,torque_on,goal,commanded,position,";  // of which the first 8 are used
 constexpr std::size_t kFields = 8;
-constexpr double kGrid_s = 0.002;  // finer than any bus's tick
+constexpr double kGridS = 0.002;  // finer than any bus's tick
 
-constexpr double kLatest_ms = 250;
+constexpr double kLatestMs = 250;
 constexpr double kMostOff = 0.1;  // part of the motion
 
 [[noreturn]] void Refuse(const std::string& path, std::size_t line, const std::string& what) {
@@ -27,13 +27,13 @@ constexpr double kMostOff = 0.1;  // part of the motion
 
 double BandOf(const servo::Servo& servo) { return std::max(servo.dead_band, servo.backlash); }
 
-// A curve at every kGrid_s from `from_s`, as a line from point to point, or held.
+// A curve at every kGridS from `from_s`, as a line from point to point, or held.
 std::vector<double> OnGrid(const Curve& curve, double from_s, std::size_t count, bool holds) {
   std::vector<double> values;
   values.reserve(count);
   std::size_t at = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const double t = from_s + static_cast<double>(i) * kGrid_s;
+    const double t = from_s + static_cast<double>(i) * kGridS;
     while (at + 1 < curve.size() && curve[at + 1].t_s <= t) ++at;
     const TimedValue& before = curve[at];
     if (holds || at + 1 == curve.size() || t < before.t_s) {
@@ -64,7 +64,7 @@ Following Compare(const std::vector<double>& leader, const std::vector<double>& 
     least = sum;
     best.rms = std::sqrt(sum / static_cast<double>(follower.size()));
     best.largest = largest;
-    if (moves) best.lag_ms = static_cast<double>(lag) * kGrid_s * 1000;
+    if (moves) best.lag_ms = static_cast<double>(lag) * kGridS * 1000;
   }
   return best;
 }
@@ -77,11 +77,12 @@ TimeSpan SpanOf(const servo::Servo& servo, const Curve& parameter,
   const double near = std::max(4.0 * BandOf(servo), 0.02 * (servo.max - servo.min));
   const auto met = std::ranges::find_if(rows, [&](const ServoRow& row) {
     return row.torque_on && row.t_s >= parameter.front().t_s &&
-           std::abs(row.goal - ValueAt(parameter, row.t_s)) <= near;
+           std::abs(row.goal - ValueAt(parameter, row.t_s)) <= near &&
+           std::abs(row.commanded - row.goal) <= near;
   });
   const auto off = std::find_if(met, rows.end(), [](const ServoRow& r) { return !r.torque_on; });
   TimeSpan span{INFINITY, parameter.back().t_s};
-  if (met != rows.end()) span.from_s = met->t_s + kSettled_s;
+  if (met != rows.end()) span.from_s = met->t_s + kSettledS;
   if (off != rows.end()) span.to_s = std::min(span.to_s, off->t_s);
   if (span.to_s - span.from_s < 1) {
     throw app::BadInput("servo \"" + std::string(servo.name.view()) + "\" was never " +
@@ -91,10 +92,10 @@ TimeSpan SpanOf(const servo::Servo& servo, const Curve& parameter,
   return span;
 }
 
-// The kCloseUp_s in which the values go the longest way.
+// The kCloseUpS in which the values go the longest way.
 TimeSpan Liveliest(const std::vector<double>& values, TimeSpan span) {
   const auto window =
-      static_cast<std::size_t>(std::min(kCloseUp_s, span.to_s - span.from_s) / kGrid_s);
+      static_cast<std::size_t>(std::min(kCloseUpS, span.to_s - span.from_s) / kGridS);
   double way = 0;
   double longest = -1;
   std::size_t end = window;
@@ -105,16 +106,16 @@ TimeSpan Liveliest(const std::vector<double>& values, TimeSpan span) {
     longest = way;
     end = i;
   }
-  const double to_s = span.from_s + static_cast<double>(end) * kGrid_s;
-  return {to_s - static_cast<double>(window) * kGrid_s, to_s};
+  const double to_s = span.from_s + static_cast<double>(end) * kGridS;
+  return {to_s - static_cast<double>(window) * kGridS, to_s};
 }
 
 double Unresolved(const std::vector<double>& goals, const std::vector<double>& commanded) {
   double largest = 0;
   double rested_s = 0;
   for (std::size_t i = 1; i < goals.size(); ++i) {
-    rested_s = goals[i] == goals[i - 1] ? rested_s + kGrid_s : 0;
-    if (rested_s >= kRested_s) largest = std::max(largest, std::abs(commanded[i] - goals[i]));
+    rested_s = goals[i] == goals[i - 1] ? rested_s + kGridS : 0;
+    if (rested_s >= kRestedS) largest = std::max(largest, std::abs(commanded[i] - goals[i]));
   }
   return largest;
 }
@@ -166,13 +167,14 @@ ServoFollowing Measure(const servo::Servo& servo, const Curve& parameter,
     following.beyond_limits =
         std::max({following.beyond_limits, servo.min - row.goal, row.goal - servo.max});
   }
-  const auto early = static_cast<std::size_t>(kLongestLag_s / kGrid_s);
+  const auto early = static_cast<std::size_t>(kLongestLagS / kGridS);
   const auto count =
-      static_cast<std::size_t>((following.span.to_s - following.span.from_s) / kGrid_s);
-  const double early_s = following.span.from_s - kLongestLag_s;
+      static_cast<std::size_t>((following.span.to_s - following.span.from_s) / kGridS);
+  const double early_s = following.span.from_s - kLongestLagS;
   const auto wanted = OnGrid(parameter, early_s, count + early, false);
   const auto goals = OnGrid(CurveOf(rows, &ServoRow::goal), early_s, count + early, true);
-  const auto commanded = OnGrid(CurveOf(rows, &ServoRow::commanded), early_s, count + early, true);
+  const auto commanded =
+      OnGrid(CurveOf(rows, &ServoRow::commanded), following.span.from_s, count, true);
   const auto positions =
       OnGrid(CurveOf(rows, &ServoRow::position), following.span.from_s, count, false);
 
@@ -184,7 +186,7 @@ ServoFollowing Measure(const servo::Servo& servo, const Curve& parameter,
   const bool moves = following.moved > 4 * BandOf(servo);
   following.command = Compare(wanted, goals_now, early, moves);
   following.position = Compare(goals, positions, early, moves);
-  following.unresolved = Unresolved(goals, commanded);
+  following.unresolved = Unresolved(goals_now, commanded);
   following.liveliest = Liveliest(wanted_now, following.span);
   return following;
 }
@@ -195,10 +197,10 @@ std::string WhyNot(const servo::Servo& servo, const ServoFollowing& following, d
   if (following.beyond_limits > step / 2) {
     return "was told to go " + Number("%.1f", following.beyond_limits) + " beyond its limits";
   }
-  if (following.command.lag_ms > kLatest_ms) return "gets its commands too late";
   if (following.command.rms > most_off) return "gets other commands than its parameter asks for";
-  if (following.position.lag_ms > kLatest_ms) return "moves too late";
+  if (following.command.lag_ms > kLatestMs) return "gets its commands too late";
   if (following.position.rms > most_off) return "does not go where it is told";
+  if (following.position.lag_ms > kLatestMs) return "moves too late";
   if (following.unresolved > step) {
     return "comes to rest " + Number("%.2f", following.unresolved) + " from its command";
   }

@@ -30,25 +30,26 @@ struct Following {
   double rms = 0;
   double largest = 0;
 };
-inline constexpr double kLongestLag_s = 0.5;
+inline constexpr double kLongestLagS = 0.5;
 
-// A servo from its parameter to its shaft, in its own unit, from kSettled_s after its command first
-// met the parameter (until then it crawls) until the torque went or the poses ended.
+// A servo from its parameter to its shaft, in its own unit, from kSettledS after its command, and
+// what the servo makes of it, first met the parameter (until then both crawl) until the torque went
+// or the poses ended.
 struct ServoFollowing {
   TimeSpan span{};
   double moved = 0;    // of the parameter, from its least to its most
   Following command;   // behind the parameter
   Following position;  // behind the command
-  // The largest difference between goal and commanded, kRested_s after the goal last changed: what
+  // The largest difference between goal and commanded, kRestedS after the goal last changed: what
   // the bus cannot resolve.
   double unresolved = 0;
   double beyond_limits = 0;  // how far a command was outside min to max, ever
   bool torque_at_end = false;
-  TimeSpan liveliest{};  // kCloseUp_s of the span in which the parameter moves most
+  TimeSpan liveliest{};  // kCloseUpS of the span in which the parameter moves most
 };
-inline constexpr double kSettled_s = 1.5;
-inline constexpr double kRested_s = 0.1;
-inline constexpr double kCloseUp_s = 2;
+inline constexpr double kSettledS = 1.5;
+inline constexpr double kRestedS = 0.1;
+inline constexpr double kCloseUpS = 2;
 
 // `parameter`: the servo's position as the poses want it. Throws BadInput when the span is shorter
 // than a second.

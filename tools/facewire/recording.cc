@@ -121,9 +121,10 @@ std::vector<RecordedPose> ReadEveryPose(const std::string& path, const Rig& rig)
 
 std::vector<RecordedPose> ReadRecording(const std::string& path, const Rig& rig) {
   std::vector<RecordedPose> recording = ReadEveryPose(path, rig);
-  const auto repeated = std::ranges::unique(
-      recording, {}, [](const RecordedPose& recorded) { return recorded.pose.seq; });
-  recording.erase(repeated.begin(), repeated.end());
+  const auto same = [](const RecordedPose& a, const RecordedPose& b) {
+    return a.pose.seq == b.pose.seq;
+  };
+  recording.erase(std::unique(recording.begin(), recording.end(), same), recording.end());
   return recording;
 }
 

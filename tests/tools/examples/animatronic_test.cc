@@ -1,10 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <regex>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include "tests/app/facewired.h"
@@ -20,6 +24,13 @@ constexpr const char* kExample = FACEWIRE_SOURCE_DIR "/tools/examples/animatroni
 
 std::string Example(const std::string& file) { return Scratch::Read(kExample + file); }
 
+bool Eventually(const std::function<bool()>& done) {
+  for (int i = 0; i < 12'000 && !done(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return done();
+}
+
 struct Head {
   // What a builder appends to the two files.
   Head(const std::string& servos, const std::string& buses)
@@ -34,10 +45,8 @@ struct Head {
     command.insert(command.end(),
                    {"--pose", "random", "--link", Path(bus), "--trace", Path(bus + ".csv")});
     simulated.push_back(std::make_unique<Process>(command, Path(bus + ".log"), Path(bus + ".err")));
-    while (simulated.back()->out().find('\n') == std::string::npos) {
-      ASSERT_EQ(simulated.back()->err(), "");
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
+    const auto ready = [&] { return simulated.back()->out().find('\n') != std::string::npos; };
+    ASSERT_TRUE(Eventually(ready)) << simulated.back()->err();
   }
   Facewired facewired;
   std::vector<std::unique_ptr<Process>> simulated;
@@ -47,7 +56,7 @@ TEST(AnimatronicExample, IsAcceptedByTheService) {
   for (const auto& [servos, buses, words] :
        {std::tuple("first_servos.toml", "first_bus.toml", "servos   5"),
         std::tuple("head_servos.toml", "head_buses.toml", "servos   16")}) {
-    const Head head(servos, Example(buses));
+    Head head(servos, Example(buses));
     Process check = head.facewired.Start({"--check"});
     EXPECT_EQ(check.Wait(), 0) << check.err();
     EXPECT_THAT(check.out(), HasSubstr(words));
@@ -82,10 +91,8 @@ TEST(AnimatronicExample, DrivesFourHostsWithOneClip) {
   }
 
   Process service = head.facewired.Start();
-  while (!std::filesystem::exists(head.Path("line"))) {
-    ASSERT_EQ(service.err().find("facewired: bad"), std::string::npos) << service.err();
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
+  ASSERT_TRUE(Eventually([&] { return std::filesystem::exists(head.Path("line")); }))
+      << service.err();
   Process monitor = Tool(head.facewired, {"monitor", head.Path("line"), "--frames", "336",
                                           "--summary", "--csv", head.Path("wire.csv")});
   ASSERT_EQ(monitor.Wait(), 0) << monitor.err();  // fourteen seconds of the clip

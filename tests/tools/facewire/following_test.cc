@@ -87,9 +87,19 @@ TEST(Following, BeginsWhenTheCrawlIsOver) {
     if (row.t_s < 4) row.goal = row.commanded = row.position = 1000;
   }
   const auto f = Measure(Jaw(), Poses(Swing), rows);
-  EXPECT_NEAR(f.span.from_s, 4 + kSettled_s, 0.01);
+  EXPECT_NEAR(f.span.from_s, 4 + kSettledS, 0.01);
   EXPECT_NEAR(f.span.to_s, kEnd_s, 0.01);
   EXPECT_NEAR(f.command.lag_ms, 50, 2);
+}
+
+TEST(Following, BeginsWhenTheServosOwnCrawlIsOverToo) {
+  auto rows = Rows(Swing, 0.05, 0.03);
+  for (ServoRow& row : rows) {
+    if (row.t_s < 5) row.commanded = row.position = 1000;  // its goal was at the parameter at once
+  }
+  const auto f = Measure(Jaw(), Poses(Swing), rows);
+  EXPECT_NEAR(f.span.from_s, 5 + kSettledS, 0.01);
+  EXPECT_EQ(f.unresolved, 0);
 }
 
 TEST(Following, EndsWithTheTorque) {
@@ -102,7 +112,7 @@ TEST(Following, ShowsTheLiveliestPartLarge) {
     return t_s > 7 && t_s < 8.5 ? 1500 + 200 * std::sin(20 * (t_s - 7)) : 1500.0;
   };
   const auto f = Measure(Jaw(), Poses(nod), Rows(nod, 0.05, 0.03));
-  EXPECT_NEAR(f.liveliest.to_s - f.liveliest.from_s, kCloseUp_s, 0.01);
+  EXPECT_NEAR(f.liveliest.to_s - f.liveliest.from_s, kCloseUpS, 0.01);
   EXPECT_LE(f.liveliest.from_s, 7.1);
   EXPECT_GE(f.liveliest.to_s, 8.4);
 }

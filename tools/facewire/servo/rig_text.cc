@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <utility>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "app/servo_rig_file.h"
 #include "app/toml_reader.h"
 #include "tools/facewire/output_file.h"
+#include "tools/facewire/servo/temporary_file.h"
 
 namespace facewire::tools {
 namespace {
@@ -149,27 +149,6 @@ const toml::table& FindServo(const toml::table& root, std::string_view name) {
   throw app::BadInput("no servo \"" + std::string(name) + "\" in this rig");
 }
 
-// A file that is gone with this.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& text)
-      : path_((std::filesystem::temp_directory_path() / "facewire-rig-XXXXXX").string()) {
-    const int fd = ::mkstemp(path_.data());
-    if (fd < 0) throw app::Failure(path_ + ": " + std::strerror(errno));
-    ::close(fd);
-    if (!(std::ofstream(path_, std::ios::binary) << text).flush()) {
-      throw app::Failure("writing " + path_ + ": " + std::strerror(errno));
-    }
-  }
-  ~TemporaryFile() { ::unlink(path_.c_str()); }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
 }  // namespace
 
 std::string PositionText(double position) {
@@ -195,18 +174,11 @@ std::string EditServo(std::string_view text, std::string_view servo, const Servo
 }
 
 void CheckRigText(const std::filesystem::path& file, const std::string& text) {
-  const TemporaryFile copy(text);
-  try {
-    const Rig rig = app::LoadRig(copy.path());
-    (void)app::LoadServoRig(copy.path(), rig);
-  } catch (const app::BadInput& error) {
-    std::string what = error.what();
-    for (std::size_t at = 0; (at = what.find(copy.path(), at)) != std::string::npos;) {
-      what.replace(at, copy.path().size(), file.string());
-      at += file.string().size();
-    }
-    throw app::BadInput(what);
-  }
+  CheckAsFile(std::filesystem::temp_directory_path(), text, file.string(),
+              [](const std::filesystem::path& copy) {
+                const Rig rig = app::LoadRig(copy);
+                (void)app::LoadServoRig(copy, rig);
+              });
 }
 
 void ReplaceRig(const std::filesystem::path& file, const std::string& text) {

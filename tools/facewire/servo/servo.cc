@@ -18,6 +18,7 @@ void AddServo(CLI::App& facewire) {
   AddServoLimits(*servo);
   AddServoSet(*servo);
   AddServoReboot(*servo);
+  AddServoWizard(*servo);
 }
 
 }  // namespace facewire::tools

@@ -15,6 +15,7 @@ void AddServoMove(CLI::App& servo);
 void AddServoLimits(CLI::App& servo);
 void AddServoSet(CLI::App& servo);
 void AddServoReboot(CLI::App& servo);
+void AddServoWizard(CLI::App& servo);
 
 }  // namespace facewire::tools
 
