@@ -247,6 +247,7 @@ TEST(ExampleConfig, OmitsNoKeyThatTheReaderKnows) {
     ASSERT_NE(known, std::string::npos) << path << ": " << what;
     std::istringstream keys(what.substr(known + 7));
     for (std::string key; std::getline(keys >> std::ws, key, ',');) {
+      if (key == "bus") continue;  // comments there: tests/app/animatronic/bus_tables_test.cc
       const std::string full = *path == 0 ? key : path + ("." + key);
       EXPECT_TRUE(example.at_path(full)) << full << " is not in the example";
     }
