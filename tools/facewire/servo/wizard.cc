@@ -352,14 +352,13 @@ class Wizard {
       mover.Open(kLongestSearch);
       Jog jog(mover, {.marks = true, .title = shown.name + ": " + MarksOf(channel)});
       RunJog(jog, mover, [&] { return stop.Raised(); });
-      if (stop.Raised()) throw app::BadInput("stopped; nothing was written");
-      if (!jog.confirmed()) {
-        std::printf("Left out.\n");
-        return false;
-      }
-      shown.marks = jog.marks();
+      if (jog.confirmed()) shown.marks = jog.marks();
     } catch (const app::Failure& error) {
       std::printf("%s\n", error.what());
+    }
+    if (stop.Raised()) throw app::Failure("stopped; nothing was written");
+    if (!shown.marks.neutral) {
+      std::printf("Left out.\n");
       return false;
     }
     rig_text_ += (rig_text_.ends_with('\n') ? "" : "\n") + ServoBlock(shown);

@@ -191,13 +191,13 @@ TEST_F(ServoMotion, TheWizardAddsBareServosToAConfigurationThatTheServiceAccepts
         "name = \"a\"  # mine\n[[parameter]]\nname = \"tilt\"\ndrive = { \"head.pitch\" = 0.1 }\n");
   const Outcome outcome =
       Servo({"wizard", Path("sts"), "--kind", "feetech", "--config", config},
-            "y\nface\nw\ntlit\ntilt\n\n=2300 1 =1900 2 =2000 3 enter\nhand\ntail\n"
-            "=1000 1 =2500 2 =2000 3 enter\n");
+            "y\nface\nw\ntild\ntilt\n\n=2150 1 =1950 2 =2000 3 enter\nhand\ntail\n"
+            "=1900 1 =2150 2 =2000 3 enter\n");
   EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;
-  EXPECT_THAT(outcome.out, HasSubstr("There is no channel \"tlit\"; did you mean \"tilt\"?"));
+  EXPECT_THAT(outcome.out, HasSubstr("There is no channel \"tild\"; did you mean \"tilt\"?"));
   EXPECT_THAT(Read("rig.toml"), HasSubstr("name = \"a\"  # mine\n"));
   // It falls: the servo is mounted the other way round.
-  EXPECT_THAT(Read("rig.toml"), HasSubstr("map = [[0, 2300], [1, 1900]]"));
+  EXPECT_THAT(Read("rig.toml"), HasSubstr("map = [[0, 2150], [1, 1950]]"));
   app::Process check({FACEWIRED, "--config", config, "--check"}, Path("out"), Path("err"));
   EXPECT_EQ(check.Wait(), 0) << check.err();
   EXPECT_EQ(Servo({"move", "tilt", "2100", "--config", config}).code, 0);
