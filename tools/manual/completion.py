@@ -16,11 +16,16 @@ def bash(program, commands):
     function = f"_{program}"
     lines = [f"# Completion of {program} for bash.", f"{function}() {{",
              "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} words= choices=",
-             "  case ${COMP_WORDS[1]-} in"]
+             "  local command=${COMP_WORDS[1]-}"]
+    for command in subcommands:
+        if command.subcommands:
+            lines.append(f"  if [ \"$command\" = {command.name} ] && [ \"$COMP_CWORD\" -gt 2 ]; then "
+                         "command+=\" ${COMP_WORDS[2]}\"; fi")
+    lines.append("  case $command in")
     for command in subcommands + [main]:
         words = " ".join(name for option in command.options if not option.positional
                          for name in option.names if name.startswith("--"))
-        lines.append(f"    {command.name or '*'})")
+        lines.append(f"    {shlex.quote(command.name) if command.name else '*'})")
         lines.append(f"      words={shlex.quote(words)}")
         after = [option for option in command.options if _takes(option) in ("choices", "number")
                  and not option.positional]
@@ -33,10 +38,12 @@ def bash(program, commands):
             if numbers:
                 lines.append(f"        {numbers}) compopt +o default +o bashdefault; return ;;")
             lines.append("      esac")
+        if command.name and command.subcommands:
+            lines.append(f"      if [ \"$COMP_CWORD\" -eq 2 ]; then choices=\"{' '.join(command.subcommands)} $words\"; fi")
         lines.append("      ;;")
     lines.append("  esac")
     if subcommands:
-        names = " ".join(command.name for command in subcommands)
+        names = " ".join(main.subcommands)
         lines += ["  if [ \"$COMP_CWORD\" -eq 1 ]; then", f"    choices=\"{names} $words\"", "  fi"]
     lines += ["  if [ -z \"$choices\" ] && [[ $current == -* ]]; then choices=$words; fi",
               "  # Nothing of ours fits: bash completes names of files.",
@@ -48,12 +55,15 @@ def bash(program, commands):
 def fish(program, commands):
     main, *subcommands = commands
     lines = [f"# Completion of {program} for fish."]
+    verbs = {command.name: " ".join(command.subcommands) for command in subcommands if command.subcommands}
     for command in subcommands:
-        lines.append(f"complete -c {program} -n __fish_use_subcommand -f -a {command.name} "
-                     f"-d {_fish_quote(command.text)}")
+        group, _, verb = command.name.rpartition(" ")
+        when = (f"'__fish_seen_subcommand_from {group}; and not __fish_seen_subcommand_from {verbs[group]}'" if group
+                else "__fish_use_subcommand")
+        lines.append(f"complete -c {program} -n {when} -f -a {verb} -d {_fish_quote(command.text)}")
     for command in commands:
-        when = f" -n '__fish_seen_subcommand_from {command.name}'" if command.name else (
-            " -n __fish_use_subcommand" if subcommands else "")
+        seen = "; and ".join(f"__fish_seen_subcommand_from {word}" for word in command.name.split())
+        when = f" -n '{seen}'" if command.name else (" -n __fish_use_subcommand" if subcommands else "")
         for option in command.options:
             if option.positional:
                 continue
@@ -76,14 +86,30 @@ def zsh(program, commands):
     if not subcommands:
         return "\n".join(lines + ["_arguments -s \\", " \\\n".join(_zsh_arguments(main))]) + "\n"
     lines += ["if (( CURRENT == 2 )); then", "  local -a commands=("]
-    for command in subcommands:
-        lines.append("    " + shlex.quote(f"{command.name}:{command.text.replace(':', ';')}"))
+    lines += _zsh_names(subcommands, "")
     lines += ["  )", f"  _describe command commands", "  _arguments \\",
               " \\\n".join(_zsh_arguments(main)), "  return", "fi", "local name=$words[2]", "shift words",
-              "(( CURRENT-- ))", "case $name in"]
+              "(( CURRENT-- ))"]
     for command in subcommands:
-        lines += [f"  {command.name})", "    _arguments -s \\", " \\\n".join(_zsh_arguments(command)), "    ;;"]
+        if command.subcommands:
+            lines += [f"if [[ $name == {command.name} ]]; then", "  if (( CURRENT == 2 )); then",
+                      "    local -a verbs=("] + _zsh_names(subcommands, command.name) + [
+                      "    )", "    _describe verb verbs", "    return", "  fi", f"  name=\"{command.name} $words[2]\"",
+                      "  shift words", "  (( CURRENT-- ))", "fi"]
+    lines.append("case $name in")
+    for command in subcommands:
+        lines += [f"  {shlex.quote(command.name)})", "    _arguments -s \\", " \\\n".join(_zsh_arguments(command)), "    ;;"]
     return "\n".join(lines + ["esac"]) + "\n"
+
+
+def _zsh_names(subcommands, group):
+    """Those of one level, with what they are for."""
+    names = []
+    for command in subcommands:
+        parent, _, name = command.name.rpartition(" ")
+        if parent == group:
+            names.append("    " + shlex.quote(f"{name}:{command.text.replace(':', ';')}"))
+    return names
 
 
 def _zsh_arguments(command):

@@ -34,9 +34,11 @@ class Command:
 
 
 def read(program):
-    """The program's own Command, then one for each of its subcommands."""
-    main = _parse("", _run(program, []))
-    return [main] + [_parse(name, _run(program, [name])) for name in main.subcommands]
+    """The program's own Command, then one for each of its subcommands, each followed by its verbs ("servo find")."""
+    def parse(words):
+        command = _parse(" ".join(words), _run(program, words))
+        return [command] + [one for name in command.subcommands for one in parse(words + [name])]
+    return parse([])
 
 
 def _run(program, arguments):

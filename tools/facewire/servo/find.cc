@@ -84,11 +84,13 @@ void AddServoFind(CLI::App& servo) {
                       "Serial ports; without any, every one of this machine");
   command
       ->add_option("--kind", options->kinds, "Only buses of this kind; may be given more than once")
-      ->check(CLI::IsMember({"receiver", "maestro", "dynamixel", "feetech"}));
+      ->check(CLI::IsMember({"receiver", "maestro", "dynamixel", "feetech"}))
+      ->allow_extra_args(false);
   command
       ->add_option("--baud", options->rates,
                    "Only this rate instead of the usual ones; may be given more than once")
-      ->check(CLI::Range(1200, 10'000'000));
+      ->check(CLI::Range(1200, 10'000'000))
+      ->allow_extra_args(false);
   command->add_flag("--all", options->all,
                     "Ask every id of a Feetech chain, not only 0 to 20: half a minute a port");
   command->add_flag("--quiet", options->quiet, "Do not say what is being tried");

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -141,7 +142,11 @@ class Wizard {
         std::printf("%s: no servos\n", port.c_str());
         return;
       }
-      if (!found.buses.front().servos.empty() && GaveIds(found.buses.front())) found = search();
+      std::printf("\n%s", Describe(found.buses.front()).c_str());
+      if (!found.buses.front().servos.empty() && GaveIds(found.buses.front())) {
+        found = search();
+        for (const FoundBus& bus : found.buses) std::printf("\n%s", Describe(bus).c_str());
+      }
     } catch (const app::BadInput& error) {
       if (options_.ports.size() == 1) throw app::BadInput(WithService(error.what()));
       std::printf("%s\n", WithService(error.what()).c_str());
@@ -159,7 +164,6 @@ class Wizard {
 
   // New servos all have id 1. Whether any got another one.
   bool GaveIds(const FoundBus& bus) {
-    std::printf("\n%s", Describe(bus).c_str());
     if (AskYes("Is every servo of this chain there, with an id of its own?", true)) return false;
     bool gave = false;
     for (;;) {
@@ -222,7 +226,6 @@ class Wizard {
   }
 
   void ShowBus(const FoundBus& found) {
-    std::printf("\n%s", Describe(found).c_str());
     const app::ServoBusConfig* known = KnownBus(found.port);
     const std::string name = known != nullptr ? known->name : BusName();
     const app::ServoBusConfig bus = known != nullptr ? *known : ConfigOf(found, name);
@@ -342,21 +345,20 @@ class Wizard {
                 channel == nullptr ? "the other" : "where it is at its most");
     std::fflush(stdout);
     const WholeWay way = WholeWayOf(bus);
-    shown.max_speed_per_s = kUsualSpeed * (way.high - way.low);
+    shown.max_speed_per_s = 100 * std::round(kUsualSpeed * (way.high - way.low) / 100);
     const StopFlag stop;
     try {
       Mover mover(Alone(bus, Unlimited(bus, id)), 0, clock_);
       mover.Open(kLongestSearch);
       Jog jog(mover, {.marks = true, .title = shown.name + ": " + MarksOf(channel)});
       RunJog(jog, mover, [&] { return stop.Raised(); });
-      if (stop.Raised()) throw app::BadInput("stopped; nothing was written");
-      if (!jog.confirmed()) {
-        std::printf("Left out.\n");
-        return false;
-      }
-      shown.marks = jog.marks();
+      if (jog.confirmed()) shown.marks = jog.marks();
     } catch (const app::Failure& error) {
       std::printf("%s\n", error.what());
+    }
+    if (stop.Raised()) throw app::Failure("stopped; nothing was written");
+    if (!shown.marks.neutral) {
+      std::printf("Left out.\n");
       return false;
     }
     rig_text_ += (rig_text_.ends_with('\n') ? "" : "\n") + ServoBlock(shown);
@@ -419,7 +421,8 @@ void AddServoWizard(CLI::App& servo) {
   command
       ->add_option("--kind", options->kinds,
                    "Only search buses of this kind; may be given more than once")
-      ->check(CLI::IsMember({"receiver", "maestro", "dynamixel", "feetech"}));
+      ->check(CLI::IsMember({"receiver", "maestro", "dynamixel", "feetech"}))
+      ->allow_extra_args(false);
   CLI::Option* out = command->add_option(
       "--out", options->out, "Write facewire.toml and rig.toml into this folder, as new files");
   command->add_option("--rig", options->rig, "The rig to begin with, instead of Otto's")
