@@ -150,7 +150,7 @@ void ServoWatch::TellServo(std::size_t servo, ServoNews news, const ServoReport&
 void ServoWatch::TellFindings(const ServoReport& report) noexcept {
   for (const bus::Finding& finding : report.findings) {
     const auto bit = static_cast<std::uint16_t>(1U << static_cast<unsigned>(finding.setting));
-    if ((servos_[finding.servo].settings & bit) != 0) continue;
+    if (!finding.refused || (servos_[finding.servo].settings & bit) != 0) continue;
     servos_[finding.servo].settings |= bit;
     std::array<char, kMaxNameLength + 1> name;
     (void)Chars(rig_.servos[finding.servo].name, name);

@@ -200,6 +200,10 @@ void ChainBus::WriteArming(Time now, PacketBuffer& out) noexcept {
       m.arriving = true;
       m.prepared = m.confirmed = m.torque_sent = false;
     }
+    // On a bad line the confirmation may take long, and the motion goes on meanwhile.
+    if (!m.torque_sent && m.prepared && Due(m.sent_at, config_.look_after, now)) {
+      m.prepared = m.confirmed = false;
+    }
     if (!m.prepared) {
       const Goal goal = GoalOf(i);
       m.sent = goal.counts;

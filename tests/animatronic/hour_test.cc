@@ -226,13 +226,15 @@ const std::vector<Troubles::Trouble> Troubles::kTroubles = {
     {"reboot of a servo", 0.5, &Troubles::Reboot},
 };
 
-TEST(AnHourOfFaults, BreaksNoRuleOnAnyBus) {
+class AnHourOfFaults : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(AnHourOfFaults, BreaksNoRuleOnAnyBus) {
   const std::clock_t began = std::clock();
   StageOptions options = EveryKind(3);
   options.linked = true;
   options.contract.limp = seconds(2);
   Stage stage(options);
-  Troubles troubles(stage, 1);
+  Troubles troubles(stage, GetParam());
   std::vector<std::size_t> settings;  // that the stage itself wrote
   for (const auto& line : stage.lines()) {
     settings.push_back(line->bus().trace().Count(sim::EventKind::kEepromWrite));
@@ -267,6 +269,8 @@ TEST(AnHourOfFaults, BreaksNoRuleOnAnyBus) {
   EXPECT_LE(stage.judge->forged(), static_cast<std::size_t>(kMinutes) / 2 + 1);
   EXPECT_GT(stage.judge->looks(), static_cast<std::uint64_t>(kMinutes) * 60 * 1000 * 12 / 3);
 }
+
+INSTANTIATE_TEST_SUITE_P(Seeds, AnHourOfFaults, testing::Values(1, 4, 8));
 
 }  // namespace
 }  // namespace facewire::stage

@@ -239,6 +239,7 @@ void Line::ToServos(std::span<const std::byte> bytes, Time world) {
 std::vector<std::byte> Line::ToHost() {
   std::vector<std::byte> bytes = bus_->Transmit();
   if (silent) bytes.clear();
+  if (damage) damage(bytes);
   return bytes;
 }
 

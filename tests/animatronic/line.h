@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -80,6 +81,8 @@ class Line {
   bool whole() const { return !deaf && !silent && !left_; }
   bool deaf = false;    // nothing gets to the servos
   bool silent = false;  // nothing gets to the host
+  // May change what gets to the host.
+  std::function<void(std::vector<std::byte>&)> damage;
 
  private:
   void BuildMaestro();

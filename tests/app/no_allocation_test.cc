@@ -1,7 +1,7 @@
 // The promise of the design: after start the service takes nothing from the heap and gives nothing
 // back. The whole service runs here as it runs in the demo: real networks, the shipped profile and
-// rig, looped footage in memory, a pseudo-terminal with somebody reading at its other end, the
-// board's (mock) lines, and programs that come and go at the control socket.
+// rig with servos on two buses, looped footage in memory, a pseudo-terminal with somebody reading
+// at its other end, the board's (mock) lines, and programs that come and go at the control socket.
 
 #include <gtest/gtest.h>
 
@@ -29,19 +29,31 @@ class Context {
  public:
   // `pace`: "real-time", as the demo, or "fast", which has no pauses between the pictures.
   explicit Context(const std::string& pace) {
-    scratch.Write("facewire.toml",
-                  "[camera]\ndevice = \"replay\"\n[camera.replay]\nfile = \"" FACEWIRE_ASSETS
-                  "/footage/franck.mp4\"\npace = \"" +
-                      pace +
-                      "\"\nmemory_mib = 64\nloop = \"ping-pong\"\n"
-                      "[tracker]\nnetworks = \"" FACEWIRE_ASSETS
-                      "/networks\"\n[character]\nrig = \"" FACEWIRE_SOURCE_DIR
-                      "/app/share/otto.toml\"\nprofile = \"" FACEWIRE_SOURCE_DIR
-                      "/app/share/average.profile\"\n[neutral]\nfolder = \"state\"\n"
-                      "[host]\nline = \"pty:line\"\ndescribe_every_s = 1.0\n"
-                      "[control]\nsocket = \"control\"\n"
-                      "[gpio]\nstop_line = \"stop\"\ncalibrate_line = \"button\"\n"
-                      "status_led_line = \"led\"\nservo_power_line = \"power\"\n");
+    scratch.Write(
+        "facewire.toml",
+        "[camera]\ndevice = \"replay\"\n[camera.replay]\nfile = \"" FACEWIRE_ASSETS
+        "/footage/franck.mp4\"\npace = \"" +
+            pace +
+            "\"\nmemory_mib = 64\nloop = \"ping-pong\"\n"
+            "[tracker]\nnetworks = \"" FACEWIRE_ASSETS
+            "/networks\"\n[character]\nrig = \"rig.toml\"\nprofile = \"" FACEWIRE_SOURCE_DIR
+            "/app/share/average.profile\"\n[neutral]\nfolder = \"state\"\n"
+            "[host]\nline = \"pty:line\"\ndescribe_every_s = 1.0\n"
+            "[control]\nsocket = \"control\"\n"
+            "[gpio]\nstop_line = \"stop\"\ncalibrate_line = \"button\"\n"
+            "status_led_line = \"led\"\nservo_power_line = \"power\"\n"
+            // A controller that never answers, so that its servos move; and servos that
+            // are looked for all the time.
+            "[[bus]]\nname = \"pulses\"\nkind = \"maestro\"\nport = \"pty:pulses\"\n"
+            "answers = false\n"
+            "[[bus]]\nname = \"chain\"\nkind = \"feetech\"\nport = \"pty:chain\"\n");
+    std::string rig = Scratch::Read(FACEWIRE_SOURCE_DIR "/app/share/otto.toml");
+    for (const char* bus : {"pulses", "chain"}) {
+      rig += std::string("[[servo]]\nname = \"jaw-") + bus + "\"\nbus = \"" + bus +
+             "\"\nid = 1\nfrom = { \"jaw.pitch\" = 1 }\nmap = [[0, 1000], [24, 2000]]\n"
+             "max_speed = 4000\n";
+    }
+    scratch.Write("rig.toml", rig);
     application.emplace(ApplicationOptions{.config = scratch / "facewire.toml", .fake = true},
                         clock, journal);
     application->Open();
@@ -126,6 +138,10 @@ TEST(NoAllocation, TheServiceRunsWithoutTheHeapFromFrame10ToFrame1000) {
   EXPECT_GT(c.bytes - before, 100'000U);
   EXPECT_GT(stats.commands, 300U);
   EXPECT_GT(c.answered, 5000U);
+  const ServoReport* servos = c.application->service().servos();
+  ASSERT_NE(servos, nullptr);
+  EXPECT_GT(servos->ticks, 100U);
+  EXPECT_EQ(servos->servos[0].command.activity, servo::Activity::kFollowing);
   EXPECT_EQ(c.application->service().state(), ServiceState::kTracking);
 }
 

@@ -160,6 +160,19 @@ TEST(PanelPower, IsOffInAFaultUntilAPoseWasTakenAfterIt) {
   EXPECT_TRUE(b.power.asserted());
 }
 
+TEST(PanelPower, GoesAndComesWithTheWordOfTheServosOnBuses) {
+  Board b;
+  b.view.servos_well = false;
+  b.Tick();
+  EXPECT_FALSE(b.power.asserted());
+  b.view.servos_well = true;
+  b.Tick();
+  EXPECT_TRUE(b.power.asserted());
+  b.view.servos_well = false;
+  b.Tick();
+  EXPECT_FALSE(b.power.asserted());
+}
+
 TEST(PanelPower, GoesWhenTheLineTakesNoPoseForASecond) {
   Board b;
   b.Tick();

@@ -16,6 +16,7 @@ void AddRecord(CLI::App& facewire);
 void AddPick(CLI::App& facewire);
 void AddTrain(CLI::App& facewire);
 void AddMonitor(CLI::App& facewire);
+void AddBridge(CLI::App& facewire);
 void AddCalibrate(CLI::App& facewire);
 void AddBlend(CLI::App& facewire);
 void AddStatus(CLI::App& facewire);

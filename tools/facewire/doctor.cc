@@ -18,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/animatronic/drivers.h"
 #include "app/camera_list.h"
 #include "app/config.h"
 #include "app/error.h"
@@ -70,6 +71,21 @@ Finding CheckNetworks(const DoctorOptions& options) {
   });
 }
 
+// Whether each servo is on a bus, and each bus is one that it can be on.
+void CheckServos(const app::Config& config, const servo::ServoRig& servos,
+                 std::vector<Finding>& findings) {
+  const std::string count = std::to_string(servos.servos.size());
+  if (config.buses.empty()) {
+    if (servos.servos.empty()) return;
+    findings.push_back({"servos", Verdict::kWarn, count + " in the rig, and no [[bus]] drives them",
+                        "add a [[bus]] to the configuration; `facewire servo find` looks for one"});
+    return;
+  }
+  findings.push_back(Try("servos", count + " on " + std::to_string(config.buses.size()) + " buses",
+                         "facewired --check lists all that is wrong",
+                         [&] { const app::Drivers drivers(config.buses, servos); }));
+}
+
 // The configuration, or none when there is none to be had.
 std::optional<app::Config> CheckConfig(const DoctorOptions& options,
                                        std::vector<Finding>& findings) {
@@ -83,9 +99,11 @@ std::optional<app::Config> CheckConfig(const DoctorOptions& options,
                          "facewired --check --config " + options.config,
                          [&] { config = app::LoadConfig(options.config); }));
   if (findings.back().verdict != Verdict::kOk) return std::nullopt;
+  servo::ServoRig servos;
   findings.push_back(Try("rig", config.character.rig.string(), "correct [character] rig", [&] {
-    (void)app::LoadServoRig(config.character.rig, app::LoadRig(config.character.rig));
+    servos = app::LoadServoRig(config.character.rig, app::LoadRig(config.character.rig));
   }));
+  if (findings.back().verdict == Verdict::kOk) CheckServos(config, servos, findings);
   const auto check_profile = [&](const fs::path& path, const std::string& key) {
     if (path.empty()) return;
     findings.push_back(Try(key, path.string(), "correct [character] " + key,
@@ -122,6 +140,39 @@ std::string StableNames(const std::string& device) {
   return names;
 }
 
+// Whether a device can be used, without a word to what hangs on it.
+Finding CheckDevice(const std::string& what, const std::string& device, const std::string& group) {
+  const int fd = open(device.c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  const int error = errno;
+  if (fd >= 0) {
+    close(fd);
+    return {what, Verdict::kOk, device + StableNames(device), ""};
+  }
+  if (error == EACCES) {
+    return {what, Verdict::kFail, device + ": no permission",
+            "sudo usermod -aG " + group + " $USER, then log in again"};
+  }
+  return {what, Verdict::kWarn, device + ": " + std::strerror(error),
+          "end the program that holds it, or unplug it and plug it in again"};
+}
+
+// The ports of the configuration's servo buses.
+void CheckBuses(const app::Config& config, std::vector<Finding>& findings) {
+  constexpr std::string_view kSerial = "serial:";
+  for (const app::ServoBusConfig& bus : config.buses) {
+    if (!bus.port.starts_with(kSerial)) continue;  // a pseudo-terminal is made when it is needed
+    const std::string what = "bus " + bus.name;
+    const std::string path = bus.port.substr(kSerial.size());
+    if (fs::exists(path)) {
+      findings.push_back(CheckDevice(what, path, "dialout"));
+    } else {
+      findings.push_back({what, Verdict::kFail, "there is no port " + path,
+                          "plug it in, or correct the [[bus]]'s port; the serial ports below are "
+                          "there"});
+    }
+  }
+}
+
 void CheckDevices(const std::string& what, std::initializer_list<std::string_view> prefixes,
                   const std::string& group, std::vector<Finding>& findings) {
   const std::vector<std::string> devices = Devices(prefixes);
@@ -129,20 +180,7 @@ void CheckDevices(const std::string& what, std::initializer_list<std::string_vie
     findings.push_back({what, Verdict::kWarn, "none is plugged in",
                         "plug one in; dmesg shows whether it is seen"});
   }
-  for (const std::string& device : devices) {
-    const int fd = open(device.c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    const int error = errno;
-    if (fd >= 0) {
-      close(fd);
-      findings.push_back({what, Verdict::kOk, device + StableNames(device), ""});
-    } else if (error == EACCES) {
-      findings.push_back({what, Verdict::kFail, device + ": no permission",
-                          "sudo usermod -aG " + group + " $USER, then log in again"});
-    } else {
-      findings.push_back({what, Verdict::kWarn, device + ": " + std::strerror(error),
-                          "end the program that holds it, or unplug it and plug it in again"});
-    }
-  }
+  for (const std::string& device : devices) findings.push_back(CheckDevice(what, device, group));
 }
 
 void CheckCameras(std::vector<Finding>& findings) {
@@ -241,6 +279,7 @@ void Doctor(const DoctorOptions& options) {
   findings.push_back(CheckNetworks(options));
   const std::optional<app::Config> config = CheckConfig(options, findings);
   CheckCameras(findings);
+  if (config) CheckBuses(*config, findings);
   CheckDevices("serial port", {"ttyACM", "ttyUSB", "ttyAMA", "ttyGS"}, "dialout", findings);
   std::ranges::move(CheckGpio(config ? &config->gpio : nullptr, hal::gpiod::SystemLibrary()),
                     std::back_inserter(findings));

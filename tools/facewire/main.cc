@@ -27,6 +27,7 @@ void AddCommands(CLI::App& facewire) {
   AddPick(facewire);
   AddTrain(facewire);
   AddMonitor(facewire);
+  AddBridge(facewire);
   AddCalibrate(facewire);
   AddBlend(facewire);
   AddStatus(facewire);

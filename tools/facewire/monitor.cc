@@ -1,5 +1,4 @@
 #include <sys/ioctl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -56,15 +55,6 @@ bool LocaleIsUtf8() {
   return false;
 }
 
-std::unique_ptr<hal::SerialPort> MakePort(const std::string& path, int baud) {
-  struct stat status {};
-  const bool exists = stat(path.c_str(), &status) == 0;
-  if (path == "-" || (exists && (S_ISREG(status.st_mode) || S_ISFIFO(status.st_mode)))) {
-    return std::make_unique<StreamPort>(path);
-  }
-  return app::MakeSerialPort(path, baud);
-}
-
 // Nothing sound at all is not a quiet success: a script, and a person, should notice.
 void RequireFrames(const MonitorModel& model, MonitorEnd end) {
   if (model.link.frames > 0 || end == MonitorEnd::kInterrupted) return;
@@ -76,7 +66,7 @@ void RequireFrames(const MonitorModel& model, MonitorEnd end) {
 
 void Monitor(const Options& options) {
   std::optional<MonitorRecorder> recorder;
-  const auto port = MakePort(options.port, options.baud);
+  const auto port = MakeLine(options.port, options.baud);
   app::OpenSerialPort(*port, options.port, options.baud);
   // Before the recorder: it would otherwise end the program on a signal.
   const StopFlag stop;

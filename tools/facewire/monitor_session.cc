@@ -12,9 +12,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kReadFor(20);   // so often a signal and the clock are looked at
-constexpr milliseconds kWriteFor(20);  // a question that does not get through is asked again
-constexpr milliseconds kQuestionEvery(1000);
+constexpr milliseconds kReadFor(20);      // so often a signal and the clock are looked at
 constexpr milliseconds kScreenEvery(50);  // 20 a second: smooth, and cheap over ssh
 constexpr milliseconds kPlainEvery(1000);
 
@@ -28,7 +26,6 @@ MonitorSession::MonitorSession(std::string port_name, hal::SerialPort& port, hal
 
 MonitorEnd MonitorSession::Run(const MonitorLimits& limits, const std::function<bool()>& stop) {
   const Time began = clock_.Now();
-  next_question_ = began;
   next_show_ =
       began + (display_.kind == MonitorDisplay::Kind::kPlain ? kPlainEvery : milliseconds(0));
   std::array<std::byte, 4096> buffer;
@@ -37,7 +34,7 @@ MonitorEnd MonitorSession::Run(const MonitorLimits& limits, const std::function<
     model_.elapsed_s = static_cast<double>((now - began).count()) * 1e-6;
     if (stop()) return MonitorEnd::kInterrupted;
     if (limits.seconds && model_.elapsed_s >= *limits.seconds) return MonitorEnd::kTime;
-    if (limits.may_write) AskForRig(now);
+    if (limits.may_write && !model_.RigKnown()) question_.AskIfDue(now, port_);
     Show(now);
     const auto read = port_.Read(buffer, kReadFor);
     if (read) {
@@ -84,16 +81,6 @@ void MonitorSession::Use(const wire::Message& message) {
         ok ? ""
            : std::string("the device answers ") + Name(answer->code) + ": " + Name(answer->result);
   }
-}
-
-void MonitorSession::AskForRig(Time now) {
-  if (now < next_question_ || model_.RigKnown()) return;
-  next_question_ = now + kQuestionEvery;
-  std::array<std::byte, wire::kCommandFrameBytes> buffer;
-  const auto frame = encoder_.Encode(
-      wire::Command{.id = ++command_id_, .code = wire::CommandCode::kDescribeRig}, buffer);
-  // Whether it got through shows in the answer. A line that cannot be written to can still be read.
-  if (frame) (void)port_.Write(*frame, kWriteFor);
 }
 
 void MonitorSession::Show(Time now) {

@@ -6,12 +6,12 @@
 #include <string>
 #include <string_view>
 
-#include "core/wire/encoder.h"
 #include "hal/clock.h"
 #include "hal/serial_port.h"
 #include "tools/facewire/monitor_model.h"
 #include "tools/facewire/monitor_recorder.h"
 #include "tools/facewire/monitor_view.h"
+#include "tools/facewire/rig_question.h"
 
 namespace facewire::tools {
 
@@ -54,7 +54,6 @@ class MonitorSession {
   // True when the limit of poses is reached.
   bool Take(std::span<const std::byte> bytes, std::optional<std::uint64_t> max_poses);
   void Use(const wire::Message& message);
-  void AskForRig(Time now);
   void Show(Time now);
 
   hal::SerialPort& port_;
@@ -63,9 +62,7 @@ class MonitorSession {
   MonitorRecorder* recorder_;
   MonitorModel model_;
   wire::Decoder decoder_;
-  wire::Encoder encoder_;
-  std::uint16_t command_id_ = 0;
-  Time next_question_{};
+  RigQuestion question_;
   Time next_show_{};
 };
 

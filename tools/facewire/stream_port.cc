@@ -7,6 +7,8 @@
 
 #include <cerrno>
 
+#include "app/devices.h"
+
 namespace facewire::tools {
 
 Result<> StreamPort::Open() {
@@ -35,6 +37,17 @@ Result<std::size_t> StreamPort::Read(std::span<std::byte> buffer,
   }
   had_data_ = true;
   return static_cast<std::size_t>(count);
+}
+
+bool IsStream(const std::string& path) {
+  struct stat status {};
+  const bool exists = stat(path.c_str(), &status) == 0;
+  return path == "-" || (exists && (S_ISREG(status.st_mode) || S_ISFIFO(status.st_mode)));
+}
+
+std::unique_ptr<hal::SerialPort> MakeLine(const std::string& path, int baud) {
+  if (IsStream(path)) return std::make_unique<StreamPort>(path);
+  return app::MakeSerialPort(path, baud);
 }
 
 }  // namespace facewire::tools

@@ -1,6 +1,7 @@
 #ifndef FACEWIRE_TOOLS_FACEWIRE_STREAM_PORT_H_
 #define FACEWIRE_TOOLS_FACEWIRE_STREAM_PORT_H_
 
+#include <memory>
 #include <string>
 
 #include "hal/posix/unique_fd.h"
@@ -26,6 +27,12 @@ class StreamPort final : public hal::SerialPort {
   hal::posix::UniqueFd own_;
   bool had_data_ = false;
 };
+
+// Whether `path` is one of these, as opposed to a line that a device is at the other end of.
+bool IsStream(const std::string& path);
+
+// What `path` stands for: one of these, or whatever app::MakeSerialPort finds there.
+std::unique_ptr<hal::SerialPort> MakeLine(const std::string& path, int baud);
 
 }  // namespace facewire::tools
 

@@ -60,6 +60,26 @@ TYPED_TEST(ChainBusTest, TorqueComesAfterTheServoHasRepeatedItsGoal) {
   EXPECT_EQ(c.servo(1).position, 2010);  // it did not move
 }
 
+TYPED_TEST(ChainBusTest, AGoalThatWasPreparedLongAgoIsPreparedAgainBeforeTorque) {
+  ChainContext<TypeParam> c(1);
+  std::map<std::size_t, int> sizes;  // of replies; by far the most are readings of a limp servo
+  c.damage = [&](Bytes& reply) { ++sizes[reply.size()]; };
+  c.Run(milliseconds(2000));
+  const auto readings = std::ranges::max_element(sizes, {}, [](const auto& s) { return s.second; });
+  // For a while nothing of what it was told is heard back.
+  const Time until = c.now + milliseconds(2500);
+  c.damage = [&](Bytes& reply) {
+    if (c.now < until && reply.size() != readings->first) reply.clear();
+  };
+  int goal = 1500;
+  while (!c.servo(1).torque && c.now < until + milliseconds(2000)) {
+    c.Command(1, static_cast<float>(++goal));
+    c.Tick();
+  }
+  ASSERT_TRUE(c.servo(1).torque);
+  EXPECT_GE(c.servo(1).goal, goal - 100) << "as it was a second ago at most";
+}
+
 TYPED_TEST(ChainBusTest, TorqueFromBeforeStaysWhereTheMotionGoesOnFromThere) {
   ChainContext<TypeParam> c(1);
   c.servo(1).torque = true;

@@ -30,6 +30,19 @@ TEST(FacewireDoctor, ReadsTheConfigurationThatItIsGiven) {
   EXPECT_THAT(outcome.out, HasSubstr("{\"check\":\"configuration\",\"verdict\":\"FAIL\""));
 }
 
+TEST(FacewireDoctor, LooksAtThePortsOfServoBuses) {
+  const Scratch scratch;
+  const std::string config = scratch.Write(
+      "f.toml", "[character]\nrig = \"" FACEWIRE_SOURCE_DIR
+                "/app/share/otto.toml\"\n[[bus]]\nname = \"face\"\nkind = \"maestro\"\nport = "
+                "\"serial:/dev/no-such-port\"\n");
+  const Outcome outcome = RunFacewire({"doctor", "--config", config});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("FAIL  bus face       there is no port /dev/no-such-port\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("FAIL  servos         bus \"face\": no servo of the rig is on "
+                                     "it"));
+}
+
 // Whatever cameras this machine has: a list and success, or one line that says why not.
 TEST(FacewireDoctor, ListsTheCamerasAndNothingElse) {
   for (const bool json : {false, true}) {
