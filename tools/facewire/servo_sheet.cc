@@ -68,15 +68,21 @@ std::string AddressOf(const servo::Servo& servo, const app::ServoBusConfig& bus)
          std::to_string(servo.id);
 }
 
-std::string SourcesOf(const servo::Servo& servo) {
-  std::string words = "from ";
-  for (std::size_t i = 0; i < servo.sources.size(); ++i) {
-    if (i > 0) words += " + ";
-    if (servo.sources[i].gain != 1)
-      words += Number("%g ", static_cast<double>(servo.sources[i].gain));
-    words += servo.sources[i].channel.view();
+// Two of the channels at most, a line each.
+std::vector<std::string> SourcesOf(const servo::Servo& servo) {
+  constexpr std::size_t kMost = 2;
+  std::vector<std::string> lines;
+  for (const servo::Source& source : servo.sources) {
+    if (lines.size() == kMost) {
+      lines.back() += ", ...";
+      break;
+    }
+    const char* const sign = source.gain < 0 ? "- " : "+ ";
+    const double size = std::abs(static_cast<double>(source.gain));
+    lines.push_back((lines.empty() ? (source.gain < 0 ? "from - " : "from ") : sign) +
+                    (size == 1 ? "" : Number("%g ", size)) + std::string(source.channel.view()));
   }
-  return servo.sources.empty() ? "moves by hand only" : words;
+  return lines;
 }
 
 // Where the poses want the servo, at the times when they were sent.
@@ -104,7 +110,8 @@ TraceLane LaneOf(const servo::Servo& servo, const app::ServoBusConfig& bus, Curv
                  const std::vector<ServoRow>& rows, const ServoFollowing& following) {
   TraceLane lane;
   lane.title = servo.name.view();
-  lane.subtitle = {AddressOf(servo, bus), SourcesOf(servo)};
+  lane.subtitle = SourcesOf(servo);
+  lane.subtitle.insert(lane.subtitle.begin(), AddressOf(servo, bus));
   lane.unit = HasPulses(bus.kind) ? "us" : "counts";
   const auto words = [&](const char* what, const Following& f) {
     return std::string(what) + " " + Lag(f) + " behind,";
@@ -116,7 +123,7 @@ TraceLane LaneOf(const servo::Servo& servo, const app::ServoBusConfig& bus, Curv
   lane.remarks = {
       words("command", following.command), off(following.command),
       words("position", following.position), off(following.position),
-      "at rest " + Number("%.2f ", following.unresolved) + lane.unit + " from its command"};
+      "at rest the bus is " + Number("%.2f ", following.unresolved) + lane.unit + " off"};
   lane.low = static_cast<double>(servo.min);
   lane.high = static_cast<double>(servo.max);
   lane.parameter = std::move(parameter);

@@ -14,6 +14,7 @@ constexpr double kLegendHeight = 44;
 constexpr double kLaneHeight = 226;
 constexpr double kLaneGap = 14;
 constexpr double kInset = 18;
+constexpr double kEdge = 28;  // where half of a time's name may stand
 constexpr double kWordsWidth = 276;
 constexpr double kScaleWidth = 52;  // for the numbers at a plot's left
 constexpr double kWholeWidth = 690;
@@ -120,8 +121,8 @@ void DrawCurve(const Plot& plot, const Curve& curve, bool holds, const cv::Scala
   draw();
 }
 
-// What the curves reach in the plot's time, with some air, and a thirtieth of the range at least, so
-// that a servo at rest does not look as if it shook.
+// What the curves reach in the plot's time, with some air, and a thirtieth of the range at least,
+// so that a servo at rest does not look as if it shook.
 void FitHeight(const TraceLane& lane, Plot& plot) {
   double low = INFINITY;
   double high = -INFINITY;
@@ -174,7 +175,7 @@ void DrawLane(const TraceLane& lane, const cv::Rect2d& row, TimeSpan whole, Canv
   canvas.Text(lane.unit, {whole_x - 8, row.y + 24}, kSmall, palette::kMuted, Align::kRight);
   canvas.Text("close up", {close_x, row.y + 24}, kSmall, palette::kMuted);
   DrawPlot(lane, {whole_x, top, kWholeWidth, height}, whole, false, canvas);
-  DrawPlot(lane, {close_x, top, row.x + row.width - kInset - close_x, height}, lane.close_up, true,
+  DrawPlot(lane, {close_x, top, row.x + row.width - kEdge - close_x, height}, lane.close_up, true,
            canvas);
 }
 

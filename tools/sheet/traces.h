@@ -23,9 +23,10 @@ struct TimeSpan {
 
 // One servo: what it was to do, what it was told, what it did, all in its own unit.
 struct TraceLane {
-  std::string title;                  // its name
-  std::vector<std::string> subtitle;  // where it hangs, what moves it
-  std::vector<std::string> remarks;   // its figures
+  std::string title;  // its name
+  std::vector<std::string>
+      subtitle;                      // where it hangs, what moves it; there is room for three lines
+  std::vector<std::string> remarks;  // its figures; for five
   std::string unit;
   double low = 0, high = 0;  // the least and the most that it may be told
   Curve parameter;           // drawn as a line from point to point
