@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -226,15 +227,24 @@ const std::vector<Troubles::Trouble> Troubles::kTroubles = {
     {"reboot of a servo", 0.5, &Troubles::Reboot},
 };
 
-class AnHourOfFaults : public testing::TestWithParam<std::uint64_t> {};
+struct Hour {
+  std::uint64_t seed;
+  bool mini;  // a Mini Maestro with CRC instead of a Micro without
+  std::array<int, kKinds.size()> periods_ms;
+};
+class AnHourOfFaults : public testing::TestWithParam<Hour> {};
 
 TEST_P(AnHourOfFaults, BreaksNoRuleOnAnyBus) {
   const std::clock_t began = std::clock();
   StageOptions options = EveryKind(3);
   options.linked = true;
+  for (std::size_t bus = 0; bus < kKinds.size(); ++bus) {
+    options.lines[bus].period = milliseconds(GetParam().periods_ms[bus]);
+  }
+  options.lines[0].multi_target = options.lines[0].crc = GetParam().mini;
   options.contract.limp = seconds(2);
   Stage stage(options);
-  Troubles troubles(stage, GetParam());
+  Troubles troubles(stage, GetParam().seed);
   std::vector<std::size_t> settings;  // that the stage itself wrote
   for (const auto& line : stage.lines()) {
     settings.push_back(line->bus().trace().Count(sim::EventKind::kEepromWrite));
@@ -270,7 +280,11 @@ TEST_P(AnHourOfFaults, BreaksNoRuleOnAnyBus) {
   EXPECT_GT(stage.judge->looks(), static_cast<std::uint64_t>(kMinutes) * 60 * 1000 * 12 / 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, AnHourOfFaults, testing::Values(1, 4, 8));
+INSTANTIATE_TEST_SUITE_P(Seeds, AnHourOfFaults,
+                         testing::Values(Hour{1, false, {10, 10, 10, 10, 10}},
+                                         Hour{4, true, {10, 10, 10, 10, 10}},
+                                         Hour{8, false, {20, 10, 5, 10, 20}}),
+                         [](const auto& hour) { return "Seed" + std::to_string(hour.param.seed); });
 
 }  // namespace
 }  // namespace facewire::stage

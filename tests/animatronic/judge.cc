@@ -182,11 +182,11 @@ void Judge::LookAtOne(Time at, std::size_t i, const Seen& seen) {
     Note(at, i, Rule::kLimits, seen.goal, limits.max);
   }
   LookAtGoal(at, i, seen);
-  // A servo that gives up its path stands where it is.
+  // A servo that gives up its path stays where it believes to be.
   const double leap = std::abs(seen.commanded - servo.commanded);
   const double most_leap = servo.wire.own_speed * InSeconds(kLook) + servo.wire.step;
   if (servo.was_on && servo.wire.own_speed > 0 && leap > most_leap &&
-      std::abs(seen.commanded - seen.position) > 4 * servo.wire.step) {
+      std::abs(seen.commanded - seen.sensed) > 4 * servo.wire.step) {
     Note(at, i, Rule::kLeap, leap, most_leap);
   }
   servo.commanded = seen.commanded;

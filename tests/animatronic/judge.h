@@ -46,6 +46,7 @@ struct Seen {
   double goal = 0;       // as the bus understood what it was last told
   double commanded = 0;  // where the servo's own electronics are on the way there
   double position = 0;   // of the output shaft, true
+  double sensed = 0;     // where it believes to be
 };
 
 // What may pass between a word and its deed, and what the servo has been given for itself.

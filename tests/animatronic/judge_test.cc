@@ -35,7 +35,7 @@ class JudgeTest : public testing::Test {
     commands.count = 2;
     for (std::size_t i = 0; i < 2; ++i) {
       commands.servos[i] = {.position = 2048, .torque = true};
-      seen[i] = {.torque = true, .goal = 2048, .commanded = 2048, .position = 2048};
+      seen[i] = {.torque = true, .goal = 2048, .commanded = 2048, .position = 2048, .sensed = 2048};
     }
     for (int i = 0; i < 20; ++i) Tick();  // long enough for a servo to brake
   }
@@ -57,7 +57,7 @@ class JudgeTest : public testing::Test {
   // Servo 0 is told, and its bus takes it; the servo goes there at its own speed.
   void Move(float position) {
     Tell(0, position);
-    seen[0].goal = seen[0].commanded = seen[0].position = position;
+    seen[0].goal = seen[0].commanded = seen[0].sensed = position;
     Look(kTick);
   }
   void ExpectOnly(Rule rule) {
@@ -137,7 +137,7 @@ TEST_F(JudgeTest, ForgivesAForgeryOnlyWhereTheSumIsWeakAndTheLineIsBad) {
 TEST_F(JudgeTest, SeesALeapOverWordsThatTheLineLostOnlyWhereTheWordsWereTooFast) {
   Tell(0, 2050);
   Tell(0, 2053);
-  seen[0].goal = seen[0].commanded = seen[0].position = 2053;
+  seen[0].goal = seen[0].commanded = seen[0].sensed = 2053;
   Look(milliseconds(1));
   EXPECT_EQ(judge->Report(), "");
 }

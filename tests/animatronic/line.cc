@@ -206,7 +206,8 @@ Seen Line::Look(std::size_t servo) const {
           .told = !IsPulses(options_.kind) || bus_->Goal(servo) != 0,
           .goal = bus_->Goal(servo),
           .commanded = bus_->Commanded(servo),
-          .position = bus_->Position(servo)};
+          .position = bus_->Position(servo),
+          .sensed = bus_->ToOwn(bus_->servo(servo).sensed_rad())};
 }
 
 Wire Line::wire(std::size_t servo) const {
