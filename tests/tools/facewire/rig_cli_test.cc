@@ -28,7 +28,8 @@ TEST(FacewireRig, MakesChecksAndDrawsARig) {
   const Outcome checked = RunFacewire({"rig", "check", rig});
   EXPECT_EQ(checked.code, 0) << checked.err;
   EXPECT_THAT(checked.out, AllOf(StartsWith("head: 0 bones, 2 channels, 0 servos\n"),
-                                 HasSubstr("lacks a blink of the right eye"), HasSubstr("hint  ")));
+                                 HasSubstr("lacks a blink of the right eye"),
+                                 HasSubstr("5 lacking, 0 hints\n")));
   const Outcome drawn = RunFacewire({"rig", "show", rig, "--out", scratch.Path("rig.png")});
   EXPECT_EQ(drawn.code, 0) << drawn.err;
   EXPECT_EQ(cv::imread(scratch.Path("rig.png")).cols, 1600);

@@ -153,10 +153,13 @@ class BonePlanner {
 
   bool IsBelowHead(std::size_t node) const {
     const Found* const head = Find(BoneKind::kHead);
-    if (head == nullptr) return true;
+    return head == nullptr || IsBelow(node, head->node);
+  }
+
+  bool IsBelow(std::size_t node, std::size_t ancestor) const {
     for (int at = in_.nodes[node].parent; at >= 0;
          at = in_.nodes[static_cast<std::size_t>(at)].parent)
-      if (static_cast<std::size_t>(at) == head->node) return true;
+      if (static_cast<std::size_t>(at) == ancestor) return true;
     return false;
   }
 
@@ -194,7 +197,10 @@ class BonePlanner {
     return std::sqrt(static_cast<double>(Dot(away, away))) < kTouching * Scale();
   }
 
-  double Scale() const { return alignment_ ? static_cast<double>(alignment_->scale.y) : 1; }
+  // Within what ranges can be written for: a face of a centimetre, or of ten metres.
+  double Scale() const {
+    return alignment_ ? std::clamp(static_cast<double>(alignment_->scale.y), 0.05, 50.0) : 1;
+  }
 
   // The parameter that moves the same part of the face; empty: none.
   std::string ShapeFor(const BoneRole& role, std::string_view place) const {
@@ -238,7 +244,12 @@ class BonePlanner {
     if (bone.role.landmark.empty() && found.landmark)
       bone.role.landmark = std::to_string(*found.landmark);
     if (turns) bone.role.landmark.clear();  // it sits at the eye, not at the lid's edge
-    bone.shapes_do_it = ShapeFor(found.role, place);
+    if (const std::string shape = ShapeFor(found.role, place); !shape.empty()) {
+      bone.done_by = "the shape " + shape;
+    } else if (const Found* const jaw = Find(BoneKind::kJaw);
+               jaw != nullptr && IsBelow(found.node, jaw->node)) {
+      bone.done_by = "the bone " + Shown(in_.nodes[jaw->node].name);
+    }
     plan_.bones.push_back(std::move(bone));
   }
 

@@ -30,7 +30,8 @@ struct PlannedBone {
   Point3 rest_cm{};
   BoneRole role;
   std::vector<PlannedAxis> axes;
-  std::string shapes_do_it;  // the shape that moves the same already: the axes are left to the user
+  // What moves the same part already ("the shape jawOpen"): the axes are left to the user.
+  std::string done_by;
 };
 
 struct PlannedParameter {

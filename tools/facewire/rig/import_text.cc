@@ -14,11 +14,11 @@ namespace {
 constexpr std::size_t kLineLength = 110;
 
 // As few digits as say it: 0.35, 22, -1.5.
-std::string Number(double value) {
+std::string Number(double value, int digits = 3) {
   std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.3f", value);
+  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
   std::string number = text.data();
-  number.erase(number.find_last_not_of('0') + 1);
+  if (digits > 0) number.erase(number.find_last_not_of('0') + 1);
   if (number.ends_with('.')) number.pop_back();
   return number == "-0" ? "0" : number;
 }
@@ -33,12 +33,12 @@ std::string DriveText(const Drives& drives) {
   return text + " }";
 }
 
-// Speeds to two figures or so; nobody wants 17.392.
-std::string Speed(double value) { return Number(value >= 10 ? static_cast<int>(value) : value); }
+// Whole numbers, where they are large enough: nobody wants 17.392.
+std::string Speed(double value) { return Number(value, value >= 10 ? 0 : 2); }
 
 std::string AxisText(const PlannedAxis& axis) {
-  std::string text = axis.name + " = { min = " + Number(axis.min) + ", max = " + Number(axis.max) +
-                     ", max_speed = " + Speed(axis.max_speed) +
+  std::string text = axis.name + " = { min = " + Number(axis.min, 2) +
+                     ", max = " + Number(axis.max, 2) + ", max_speed = " + Speed(axis.max_speed) +
                      ", max_acceleration = " + Speed(axis.max_acceleration);
   if (axis.hard) text += ", knee = 0";
   if (!axis.drives.empty()) text += ", drive = " + DriveText(axis.drives);
@@ -73,11 +73,10 @@ std::string BoneText(const PlannedBone& bone) {
   text += "rest_cm = [" + Number(static_cast<double>(bone.rest_cm.x)) + ", " +
           Number(static_cast<double>(bone.rest_cm.y)) + ", " +
           Number(static_cast<double>(bone.rest_cm.z)) + "]\n";
-  if (!bone.shapes_do_it.empty())
-    text += "# The shape " + bone.shapes_do_it +
-            " moves this part already; with these lines the bone would move it, too:\n";
+  if (!bone.done_by.empty())
+    text += "# Moved by " + bone.done_by + " already; with these lines it would move twice:\n";
   for (const PlannedAxis& axis : bone.axes)
-    text += (bone.shapes_do_it.empty() ? "" : "# ") + AxisText(axis);
+    text += (bone.done_by.empty() ? "" : "# ") + AxisText(axis);
   return text;
 }
 
@@ -121,7 +120,7 @@ std::string UnitText(const ImportPlan& plan) {
 
 bool IsEmpty(const ImportPlan& plan) {
   return plan.parameters.empty() && std::ranges::all_of(plan.bones, [](const PlannedBone& bone) {
-           return bone.axes.empty() || !bone.shapes_do_it.empty();
+           return bone.axes.empty() || !bone.done_by.empty();
          });
 }
 
@@ -139,7 +138,12 @@ std::string RigText(const ImportPlan& plan, const Character& character, const st
         "# The character faces -z there; here, as in every rig, it faces +z with its left at +x. A "
         "host\n"
         "# turns offsets back: x and z change their signs, and so do pitch and roll.\n";
-  if (!plan.lacking.empty()) text += "#\n" + Wrapped("ARKit's shapes that it lacks:", plan.lacking);
+  if (plan.parameters.empty()) {
+    text +=
+        "#\n# It has no blend shape that a signal of ARKit's drives; bones have to do it all.\n";
+  } else if (!plan.lacking.empty()) {
+    text += "#\n" + Wrapped("ARKit's shapes that it lacks:", plan.lacking);
+  }
   if (!plan.notes.empty()) {
     text += "#\n# Not used:\n";
     for (const std::string& note : plan.notes) text += "#   " + note + "\n";
@@ -186,9 +190,8 @@ std::string SummaryText(const ImportPlan& plan, const Character& character) {
   text += "bones: " + std::to_string(plan.bones.size()) + "\n";
   for (const PlannedBone& bone : plan.bones)
     text += line(bone.original,
-                 bone.why + (bone.shapes_do_it.empty()
-                                 ? std::string()
-                                 : ", left still: " + bone.shapes_do_it + " moves the same"));
+                 bone.why + (bone.done_by.empty() ? std::string()
+                                                  : ", left still: " + bone.done_by + " moves it"));
   const auto list = [&](const std::string& what, const std::vector<std::string>& names) {
     if (names.empty()) return;
     constexpr std::size_t kMost = 60;
@@ -197,7 +200,7 @@ std::string SummaryText(const ImportPlan& plan, const Character& character) {
     if (names.size() > kMost) text += " and " + std::to_string(names.size() - kMost) + " more";
     text += "\n";
   };
-  list("lacks", plan.lacking);
+  if (!plan.parameters.empty()) list("lacks", plan.lacking);
   for (const std::string& note : plan.notes) text += "not used: " + note + "\n";
   list("unknown shapes", plan.unknown_shapes);
   if (!plan.other_bones.empty())

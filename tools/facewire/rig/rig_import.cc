@@ -7,6 +7,7 @@
 #include "tools/facewire/rig/gltf_json.h"
 #include "tools/facewire/rig/import_plan.h"
 #include "tools/facewire/rig/import_text.h"
+#include "tools/facewire/rig/rig_names.h"
 
 namespace facewire::tools::rig {
 
@@ -18,6 +19,12 @@ ImportedRig ImportRig(std::string_view bytes, const std::string& source, double 
     throw app::BadInput(source +
                         ": nothing of a face was found in it: no blend shape and no bone has a "
                         "name that facewire knows (tools/facewire/rig/README.md lists them)");
+  constexpr float kFarthestCm = 1000;  // app/rig_file.cc's
+  for (const PlannedBone& bone : plan.bones)
+    if (!IsWithin(bone.rest_cm, kFarthestCm))
+      throw app::BadInput(source + ": " + Shown(bone.original) +
+                          " is more than 10 m from the origin; another --unit, or the character "
+                          "moved to the origin, would be right");
   return {RigText(plan, character, file.filename().string()), SummaryText(plan, character)};
 }
 

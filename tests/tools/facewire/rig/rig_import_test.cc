@@ -192,6 +192,25 @@ TEST(RigImport, JudgesTheUnitByTheEyes) {
               1e-3);
 }
 
+TEST(RigImport, RefusesABoneThatARigCannotHold) {
+  MadeCharacter character;
+  character.Bone("jaw", {0, 11, 0});
+  EXPECT_THAT(ComplaintOf(character.Glb()), HasSubstr("head.glb: jaw is more than 10 m"));
+}
+
+TEST(RigImport, LeavesStillWhatTheJawCarries) {
+  MadeCharacter character;
+  const int head = character.Bone("head", {0, 1.5F, 0});
+  const int jaw = character.Bone("jaw", {0, 1.5F, 0}, head);
+  character.Bone("lower_lip", {0, 1.48F, 0.08F}, jaw);
+  character.Bone("upper_lip", {0, 1.5F, 0.08F}, head);
+  const ImportedRig imported = ImportRig(character.Glb(), "head.glb");
+  const Rig rig = Load(imported.toml);
+  EXPECT_TRUE(rig.FindChannel("upper_lip.y"));
+  EXPECT_FALSE(rig.FindChannel("lower_lip.y"));
+  EXPECT_THAT(imported.toml, HasSubstr("Moved by the bone jaw already"));
+}
+
 TEST(RigImport, ShortensNamesAndTellsEqualOnesApart) {
   MadeCharacter character;
   const std::string name = "a name that is much longer than a rig allows: eyeBlinkLeft";
