@@ -34,6 +34,7 @@ void AddCommands(CLI::App& facewire) {
   AddService(facewire);
   AddSheet(facewire);
   AddServo(facewire);
+  AddRig(facewire);
   AddDoctor(facewire);
 }
 

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""Prints core/pose/canonical_face.cc, made from MediaPipe's geometry_pipeline_metadata_landmarks.binarypb.
+"""Prints C++ figures of the canonical face, made from MediaPipe's geometry_pipeline_metadata_landmarks.binarypb.
 
     tools/generate/canonical_face.py METADATA.binarypb > core/pose/canonical_face.cc
+    tools/generate/canonical_face.py --mesh METADATA.binarypb > tools/facewire/rig/canonical_mesh.cc
 
 The file is a serialized GeometryPipelineMetadata (mediapipe/modules/face_geometry/protos): field 1 the
 canonical mesh (its field 3 the vertices, five floats each: x, y, z in cm, u, v), field 2, repeated, the
@@ -61,20 +62,17 @@ def read(data):
     return vertices, basis
 
 
-def main():
-    if len(sys.argv) != 2:
-        sys.exit("usage: canonical_face.py METADATA.binarypb > core/pose/canonical_face.cc")
-    try:
-        with open(sys.argv[1], "rb") as file:
-            vertices, basis = read(file.read())
-    except (OSError, ValueError, KeyError, IndexError, struct.error) as error:
-        sys.exit(f"canonical_face.py: {sys.argv[1]}: {error}")
-    print('#include "core/pose/canonical_face.h"\n')
+def head(header, namespace):
+    print(f'#include "{header}"\n')
     print("// Made by tools/generate/canonical_face.py; edit that, not this.")
     print("// Figures from MediaPipe (Apache-2.0), npm package @mediapipe/face_mesh 0.4.1657299874,")
     print("// geometry_pipeline_metadata_landmarks.binarypb.")
-    print("namespace facewire::pose {\n")
+    print(f"namespace {namespace} {{\n")
     print("// clang-format off")
+
+
+def pose(vertices, basis):
+    head("core/pose/canonical_face.h", "facewire::pose")
     print("const std::array<CanonicalPoint, kCanonicalPoints> kCanonicalFace = {{")
     for index, weight in basis:
         x, y, z = vertices[index]
@@ -82,6 +80,31 @@ def main():
     print("}};")
     print("// clang-format on\n")
     print("}  // namespace facewire::pose")
+
+
+def mesh(vertices):
+    head("tools/facewire/rig/canonical_mesh.h", "facewire::tools::rig")
+    print("const std::array<Point3, kMeshLandmarks> kCanonicalMesh = {{")
+    for at in range(0, len(vertices), 3):
+        print("    " + " ".join(f"{{{x:.3f}F, {y:.3f}F, {z:.3f}F}}," for x, y, z in vertices[at:at + 3]))
+    print("}};")
+    print("// clang-format on\n")
+    print("}  // namespace facewire::tools::rig")
+
+
+def main():
+    arguments = [a for a in sys.argv[1:] if a != "--mesh"]
+    if len(arguments) != 1:
+        sys.exit("usage: canonical_face.py [--mesh] METADATA.binarypb > FILE.cc")
+    try:
+        with open(arguments[0], "rb") as file:
+            vertices, basis = read(file.read())
+    except (OSError, ValueError, KeyError, IndexError, struct.error) as error:
+        sys.exit(f"canonical_face.py: {arguments[0]}: {error}")
+    if "--mesh" in sys.argv:
+        mesh(vertices)
+    else:
+        pose(vertices, basis)
 
 
 if __name__ == "__main__":
