@@ -46,17 +46,17 @@ Result<std::span<const std::byte>> Encode(const Subject& subject, Time captured,
   if (out.size() < 1 + 4 + subject.device_id.size() + 4 + subject.name.size() + 16 + values) {
     return Errc::kFull;
   }
-  constexpr std::int64_t kDay_us = 86'400'000'000;
-  constexpr std::int64_t kSecond_us = 1'000'000;
+  constexpr std::int64_t kDayUs = 86'400'000'000;
+  constexpr std::int64_t kSecondUs = 1'000'000;
   const std::int64_t of_day =
-      ((captured.time_since_epoch().count() % kDay_us) + kDay_us) % kDay_us * kTimecodeHz;
+      ((captured.time_since_epoch().count() % kDayUs) + kDayUs) % kDayUs * kTimecodeHz;
 
   Packet packet(out);
   packet.Put(kVersion);
   packet.Put(subject.device_id);
   packet.Put(subject.name);
-  packet.Put(static_cast<std::int32_t>(of_day / kSecond_us));
-  packet.Put(static_cast<float>(of_day % kSecond_us) / static_cast<float>(kSecond_us));
+  packet.Put(static_cast<std::int32_t>(of_day / kSecondUs));
+  packet.Put(static_cast<float>(of_day % kSecondUs) / static_cast<float>(kSecondUs));
   packet.Put(kTimecodeHz);
   packet.Put(std::int32_t{1});
   if (face != nullptr) {

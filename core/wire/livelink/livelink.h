@@ -16,7 +16,7 @@ inline constexpr std::uint8_t kVersion = 6;
 inline constexpr std::uint8_t kValues = 61;  // the shapes; yaw, pitch and roll of head and eyes
 inline constexpr std::size_t kMaxTextBytes = 64;  // of the device's id, and of the subject's name
 inline constexpr std::size_t kMaxPacketBytes =
-    1 + 2 * (4 + kMaxTextBytes) + 4 * 4 + 1 + 4 * std::size_t{kValues};
+    1 + 2 * (4 + kMaxTextBytes) + 16 + 1 + 4 * std::size_t{kValues};
 
 // The rate that frame numbers count at, whatever the camera's is: a capture that lies between two
 // frames has a part of a frame.
