@@ -113,7 +113,8 @@ std::span<const std::byte> Animatronic::Bytes(std::size_t bus, Time now) noexcep
     line.let_go = false;
     return driver.Release(now);
   }
-  if (line.next && now < *line.next) return {};
+  // A tick may come a little before its time: it stands for the nearest turn.
+  if (line.next && now + period_ / 2 < *line.next) return {};
   // Absolute, so that a late tick does not move the next; after a gap there is nothing to make up.
   line.next = line.next.value_or(now) + line.wiring.period;
   if (*line.next <= now) line.next = now + line.wiring.period;

@@ -150,6 +150,18 @@ TEST_F(AnimatronicTest, ALateTickDoesNotMoveTheNext) {
   EXPECT_EQ(b.ticks[2] - b.ticks[0], milliseconds(40));
 }
 
+TEST_F(AnimatronicTest, ATickThatIsEarlierThanALateOneMissesNoTurn) {
+  Configure();
+  const Time start = now;
+  for (int i = 0; i < 100; ++i) {
+    now = start + i * milliseconds(10) + std::chrono::microseconds(i % 3 == 0 ? 900 : 50);
+    head.Update(now);
+    for (std::size_t bus = 0; bus < head.buses(); ++bus) (void)head.Bytes(bus, now);
+  }
+  EXPECT_EQ(a.ticks.size(), 100U);
+  EXPECT_EQ(b.ticks.size(), 50U);
+}
+
 TEST_F(AnimatronicTest, TellsEveryServoOnItsOwnBus) {
   Configure();
   a.Say(0, 1100, now);
