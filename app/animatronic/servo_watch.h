@@ -16,8 +16,8 @@
 namespace facewire::app {
 
 // Tells the journal what has changed about buses and servos, once for each change: who is lost, who
-// is back, who is hot, who was refused and what would mend it (`facewire servo list` tells of settings
-// that are no danger, too). Look allocates nothing.
+// is back, who is hot, who was refused and what would mend it (`facewire servo list` tells of
+// settings that are no danger, too). Look allocates nothing.
 class ServoWatch {
  public:
   // What a servo does must last for so long before it is told: one that starts anew, or a supply

@@ -121,9 +121,8 @@ std::span<const std::byte> Animatronic::Bytes(std::size_t bus, Time now) noexcep
   const auto& servos = line.wiring.servos;
   for (std::size_t i = 0; i < servos.size(); ++i) {
     const servo::Command& command = commands_->servos[servos[i]];
-    told_[i] = {.position = command.position,
-                .torque = command.torque && !over_,
-                .stop = stopped()};
+    told_[i] = {
+        .position = command.position, .torque = command.torque && !over_, .stop = stopped()};
   }
   return driver.Tick(now, {told_.data(), servos.size()});
 }

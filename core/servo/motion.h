@@ -22,7 +22,7 @@ namespace facewire::servo {
 
 // What its bus makes of a servo.
 struct Actuator {
-  float step = 1;           // of its commands, in the servo's unit: 0.25 us, 1 count
+  float step = 1;  // of its commands, in the servo's unit: 0.25 us, 1 count
   // Tells where the servo is; torque then waits for that. One that does not may still be given a
   // reading: of the pulse that a controller was found to send.
   bool reads_back = false;

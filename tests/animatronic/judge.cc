@@ -13,9 +13,9 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::size_t kKept = 20;  // violations of a rule
-// Words to a servo: four seconds of them. A receiver's frame that lost its very last byte with the
-// cable is complete when the cable is back, however late that is.
-constexpr std::size_t kRemembered = 400;
+// Words to a servo: more than lie between saying one and its last byte. A receiver gives a frame up
+// that was cut for 0.1 s.
+constexpr std::size_t kRemembered = 60;
 constexpr double kRounding = 1e-3;  // floats carry positions to a part in ten million
 constexpr Duration kLook = milliseconds(1);
 constexpr Duration kTwoTicks = milliseconds(20);

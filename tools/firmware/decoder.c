@@ -93,6 +93,7 @@ static bool Finish(FwDecoder* d, bool tail, FwFrame* frame) {
 }
 
 bool FwDecoderTake(FwDecoder* decoder, uint8_t byte, FwFrame* frame) {
+  decoder->quiet = 0;
   if (byte != 0) {
     Unstuff(decoder, byte);
     return false;
@@ -103,6 +104,17 @@ bool FwDecoderTake(FwDecoder* decoder, uint8_t byte, FwFrame* frame) {
   const bool sound = Finish(decoder, tail, frame);
   Restart(decoder);
   return sound;
+}
+
+void FwDecoderTick(FwDecoder* decoder) {
+  if (!decoder->started || ++decoder->quiet < FW_FRAME_GAP_TICKS) return;
+  if (decoder->joined) {
+    ++decoder->stats.truncated;
+    decoder->damaged = true;
+  }
+  Restart(decoder);
+  decoder->joined = false;  // what follows may be the rest of it
+  decoder->quiet = 0;
 }
 
 uint32_t FwDamaged(const FwLinkStats* stats) {

@@ -30,6 +30,7 @@ typedef struct {
 } FwFrame;
 
 #define FW_HEADER_BYTES 4
+#define FW_FRAME_GAP_TICKS 5  // 100 ms: a USB adapter holds bytes back for 16
 
 typedef struct {
   uint8_t buffer[FW_HEADER_BYTES + FW_MAX_PAYLOAD_BYTES];
@@ -41,6 +42,7 @@ typedef struct {
   bool joined;        // a delimiter was seen: what follows is a frame from its beginning
   bool damaged;       // since the last sound frame
   bool numbered;      // `last_sequence` is one
+  uint8_t quiet;      // ticks since the last byte, within a frame
   uint16_t last_sequence;
   FwLinkStats stats;
 } FwDecoder;
@@ -50,6 +52,10 @@ void FwDecoderInit(FwDecoder* decoder);
 // Takes the next byte of the stream. True when it ended a sound frame: `frame` is that frame, and
 // its payload stays until the next call.
 bool FwDecoderTake(FwDecoder* decoder, uint8_t byte, FwFrame* frame);
+
+// Once a tick. A frame whose bytes stop coming for FW_FRAME_GAP_TICKS is given up: its end would
+// come with whatever the device says next, and seconds later nobody means it any more.
+void FwDecoderTick(FwDecoder* decoder);
 
 uint32_t FwDamaged(const FwLinkStats* stats);
 

@@ -18,7 +18,6 @@ namespace facewire::app {
 namespace {
 
 using std::chrono::milliseconds;
-using testing::ElementsAre;
 
 std::vector<ServoBusConfig> Read(const std::string& text) {
   const Scratch scratch;

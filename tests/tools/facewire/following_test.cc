@@ -16,7 +16,7 @@ using app::BadInputOf;
 using app::Scratch;
 using testing::HasSubstr;
 
-constexpr double kEnd_s = 12;
+constexpr double kEndS = 12;
 
 servo::Servo Jaw() {
   servo::Servo servo;
@@ -35,14 +35,14 @@ using Motion = std::function<double(double)>;
 // Poses at 30 a second.
 Curve Poses(const Motion& motion) {
   Curve curve;
-  for (int i = 0; i <= kEnd_s * 30; ++i) curve.push_back({i / 30.0, motion(i / 30.0)});
+  for (int i = 0; i <= kEndS * 30; ++i) curve.push_back({i / 30.0, motion(i / 30.0)});
   return curve;
 }
 
 // A servo that is told every millisecond, so much later, and is there so much later again. It has
 // torque from 1 s to `off_s`.
 std::vector<ServoRow> Rows(const Motion& motion, double command_s, double position_s,
-                           double off_s = kEnd_s + 0.5) {
+                           double off_s = kEndS + 0.5) {
   std::vector<ServoRow> rows;
   for (int i = 0; i < 13'000; ++i) {
     const double t_s = i / 1000.0;
@@ -88,7 +88,7 @@ TEST(Following, BeginsWhenTheCrawlIsOver) {
   }
   const auto f = Measure(Jaw(), Poses(Swing), rows);
   EXPECT_NEAR(f.span.from_s, 4 + kSettledS, 0.01);
-  EXPECT_NEAR(f.span.to_s, kEnd_s, 0.01);
+  EXPECT_NEAR(f.span.to_s, kEndS, 0.01);
   EXPECT_NEAR(f.command.lag_ms, 50, 2);
 }
 

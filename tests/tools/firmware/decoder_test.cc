@@ -92,6 +92,45 @@ TEST(FirmwareDecoder, CountsAnEndlessFrameOnceAndReadsTheNext) {
   EXPECT_EQ(reading, ReadByDevice(stream));
 }
 
+// The frame that is complete but for its delimiter, which whatever comes next would bring.
+TEST(FirmwareDecoder, GivesUpAFrameWhoseBytesStopComing) {
+  Line line;
+  const Bytes cut = line.Send(AllAt(1600));
+  const Bytes next = line.Send(AllAt(1500));
+  for (int ticks = 0; ticks < 10; ++ticks) {
+    FwDecoder decoder;
+    FwDecoderInit(&decoder);
+    FwFrame frame;
+    int sound = 0;
+    for (const std::byte b : std::span(cut).first(cut.size() - 1)) {
+      sound += FwDecoderTake(&decoder, std::to_integer<std::uint8_t>(b), &frame) ? 1 : 0;
+    }
+    for (int tick = 0; tick < ticks; ++tick) FwDecoderTick(&decoder);
+    sound += FwDecoderTake(&decoder, 0, &frame) ? 1 : 0;
+    for (const std::byte b : next) {
+      sound += FwDecoderTake(&decoder, std::to_integer<std::uint8_t>(b), &frame) ? 1 : 0;
+    }
+    EXPECT_EQ(sound, ticks < FW_FRAME_GAP_TICKS ? 2 : 1) << ticks;
+    EXPECT_EQ(FwDamaged(&decoder.stats), ticks < FW_FRAME_GAP_TICKS ? 0U : 1U) << ticks;
+  }
+}
+
+TEST(FirmwareDecoder, GivesUpNothingBetweenFrames) {
+  Line line;
+  FwDecoder decoder;
+  FwDecoderInit(&decoder);
+  FwFrame frame;
+  int sound = 0;
+  for (int round = 0; round < 3; ++round) {
+    for (const std::byte b : line.Send(AllAt(1500))) {
+      sound += FwDecoderTake(&decoder, std::to_integer<std::uint8_t>(b), &frame) ? 1 : 0;
+    }
+    for (int tick = 0; tick < 50; ++tick) FwDecoderTick(&decoder);
+  }
+  EXPECT_EQ(sound, 3);
+  EXPECT_EQ(FwDamaged(&decoder.stats), 0U);
+}
+
 TEST(FirmwareStatus, IsReadByTheDeviceAndIsItsShortestEncoding) {
   std::mt19937 random(3);
   for (int round = 0; round < 2000; ++round) {

@@ -94,6 +94,7 @@ void FirmwareBus::RunEdges(std::uint16_t until) {
 
 void FirmwareBus::Tick(Time at) {
   const FwState before = receiver_.state;
+  FwDecoderTick(&decoder_);
   FwReceiverTick(&receiver_);
   if (receiver_.state == kFwEasing && before != kFwEasing) {
     Happened(sim::EventKind::kWatchdog, sim::kWholeBus, static_cast<int>(receiver_.setup.hold_ms));

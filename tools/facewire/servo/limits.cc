@@ -63,8 +63,11 @@ void Limits(const LimitsOptions& options) {
     marks = jog.marks();
   }
   const auto [low, high] = std::minmax(*marks.first, *marks.second);
-  const ServoEdit edit{
-      .min = low, .max = high, .neutral = *marks.neutral, .map_ends = MovesMap(options, servo)};
+  const ServoEdit edit{.min = low,
+                       .max = high,
+                       .neutral = *marks.neutral,
+                       .map_ends = MovesMap(options, servo),
+                       .neutral_was = servo.neutral};
   ReplaceRig(all.rig_file, EditServo(ReadFile(all.rig_file), options.servo, edit));
   std::printf("%s: min %s -> %s, max %s -> %s, neutral %s -> %s%s, in %s\n", options.servo.c_str(),
               PositionText(servo.min).c_str(), PositionText(low).c_str(),

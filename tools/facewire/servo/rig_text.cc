@@ -65,16 +65,26 @@ class Editor {
   void SetIfThere(std::string_view key, double value) {
     if (const toml::node* node = servo_.get(key)) Replace(*node, value);
   }
-  // The outs of the map's points, moved so that its ends are min and max.
-  void Stretch(double min, double max) {
+  // The outs of the map's points, moved so that its ends are min and max, and, where both lie
+  // between the ends, neutral is taken to neutral.
+  void Stretch(const ServoEdit& edit) {
     const toml::array& map = *servo_.get("map")->as_array();
     const double first = Out(map, 0);
     const double last = Out(map, map.size() - 1);
-    const double to_first = first < last ? min : max;
-    const double to_last = first < last ? max : min;
+    const double to_first = first < last ? *edit.min : *edit.max;
+    const double to_last = first < last ? *edit.max : *edit.min;
+    const double middle = edit.neutral_was.value_or(first);
+    const double to_middle = edit.neutral.value_or(to_first);
+    const bool bends = Between(first, middle, last) && Between(to_first, to_middle, to_last);
     for (std::size_t i = 0; i < map.size(); ++i) {
-      const double part = (Out(map, i) - first) / (last - first);
-      Replace(*map[i].as_array()->get(1), to_first + part * (to_last - to_first));
+      const double out = Out(map, i);
+      double to = Along(out, first, last, to_first, to_last);
+      if (bends && Between(first, out, middle)) {
+        to = Along(out, first, middle, to_first, to_middle);
+      } else if (bends) {
+        to = i == 0 ? to_first : Along(out, middle, last, to_middle, to_last);
+      }
+      Replace(*map[i].as_array()->get(1), to);
     }
   }
 
@@ -98,6 +108,10 @@ class Editor {
     std::string text;
   };
 
+  static bool Between(double a, double x, double b) { return (x - a) * (b - x) > 0; }
+  static double Along(double x, double from, double until, double to_from, double to_until) {
+    return to_from + (x - from) / (until - from) * (to_until - to_from);
+  }
   static double Out(const toml::array& map, std::size_t i) {
     return map[i].as_array()->get(1)->value<double>().value_or(0);
   }
@@ -165,7 +179,7 @@ std::string EditServo(std::string_view text, std::string_view servo, const Servo
   const toml::table& table = FindServo(root, servo);
   Editor editor(text, table);
   const bool stretch = edit.map_ends && edit.min && edit.max && table.contains("map");
-  if (stretch) editor.Stretch(*edit.min, *edit.max);
+  if (stretch) editor.Stretch(edit);
   for (const auto& [key, value] : {std::pair("min", edit.min), std::pair("max", edit.max)}) {
     if (value) stretch ? editor.SetIfThere(key, *value) : editor.Set(key, *value);
   }

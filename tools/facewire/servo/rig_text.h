@@ -18,6 +18,9 @@ struct ServoEdit {
   // The map's ends, too, become min and max, and what is between them moves along; its direction
   // stays. min and max are then only written where the file has them already.
   bool map_ends = false;
+  // Where neutral was: then the map takes it to the new one, each side stretched for itself, so
+  // that a face at rest still rests there.
+  std::optional<double> neutral_was{};
 };
 
 // `text` with the numbers in the [[servo]] of that name. Throws BadInput: not TOML, no such servo,

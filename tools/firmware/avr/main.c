@@ -59,6 +59,7 @@ int main(void) {
     if (!PulsesTick()) continue;
     wdt_reset();
     PORTC |= BUSY_PIN;
+    FwDecoderTick(&decoder);
     FwReceiverTick(&receiver);
     uint16_t values[FW_SERVOS];
     for (uint8_t i = 0; i < FW_SERVOS; ++i) values[i] = FwReceiverPulse(&receiver, i);

@@ -11,7 +11,7 @@
 namespace facewire::wire::osc {
 namespace {
 
-using std::string_view_literals::operator""sv;
+using namespace std::string_view_literals;  // NOLINT(google-build-using-namespace): a literal
 
 struct Context {
   std::array<std::byte, 256> buffer{};
