@@ -6,7 +6,7 @@ export function materials() {
     shell: new MeshPhysicalMaterial({ name: 'shell', color: 0xe6ddcd, roughness: 0.42, clearcoat: 0.55, clearcoatRoughness: 0.22 }),
     lid: new MeshPhysicalMaterial({ name: 'lid', color: 0xcdb29c, roughness: 0.45, clearcoat: 0.35, clearcoatRoughness: 0.3 }),
     skin: new MeshPhysicalMaterial({ name: 'skin', color: 0xffffff, vertexColors: true, roughness: 0.5, clearcoat: 0.25, clearcoatRoughness: 0.35 }),
-    blush: new MeshPhysicalMaterial({ name: 'blush', color: 0xdfb9a2, roughness: 0.45, clearcoat: 0.3, clearcoatRoughness: 0.3 }),
+    blush: new MeshPhysicalMaterial({ name: 'blush', color: 0xe2c2ad, roughness: 0.45, clearcoat: 0.3, clearcoatRoughness: 0.3 }),
     light: new MeshStandardMaterial({ name: 'light', color: 0x0b2b2c, emissive: 0x27d3cf, emissiveIntensity: 1.6 }),
     brow: new MeshStandardMaterial({ name: 'brow', color: 0x33241d, roughness: 0.6 }),
     graphite: new MeshStandardMaterial({ name: 'graphite', color: 0x24272b, roughness: 0.5, metalness: 0.55 }),

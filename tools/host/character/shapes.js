@@ -50,7 +50,7 @@ const toLine = ([, y]) => MOUTH_Y - y;
 export const mouthShapes = {
   ...jawShapes,
   ...bothSides({
-    mouthSmile: (p) => times(corner(p), [1.1, 0.95, -0.6]),
+    mouthSmile: (p) => sum(times(corner(p), [1.1, 0.95, -0.6]), times(lips(p) * leftHalf(p), [0, 0.12 * toLine(p), -0.12])),
     mouthFrown: (p) => times(corner(p), [0.15, -1.05, -0.15]),
     mouthDimple: (p) => times(corner(p), [0.45, 0.1, -0.6]),
     mouthStretch: (p) => times(corner(p), [1.0, -0.35, -0.5]),

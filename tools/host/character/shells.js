@@ -94,7 +94,7 @@ export const cheekPad = () => grid(28, 28, (u, v) => {
   // A square to a disc, so that its edge is one fold.
   const a = 2 * u - 1, b = 2 * v - 1;
   const dx = a * Math.sqrt(1 - (b * b) / 2), dy = b * Math.sqrt(1 - (a * a) / 2);
-  const x = 4.7 + 1.3 * dx, y = -1.55 + 1.1 * dy;
+  const x = 4.65 + 1.12 * dx, y = -1.5 + 0.98 * dy;
   return [x, y, front(x, y) + 0.14 * (1 - 0.7 * (dx * dx + dy * dy))];
 }, { rim: 0.2 });
 
