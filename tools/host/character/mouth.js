@@ -19,7 +19,7 @@ const line = (x) => MOUTH_Y + 0.24 * (x / LINE_HALF) ** 2 - 0.05 * bump(x, 0, 0,
 
 function between(angle, row) {
   const c = Math.cos(angle), s = Math.sin(angle);
-  const edge = [4.4 * c, MOUTH_Y + 0.12 + (s > 0 ? 2.2 : 2.4) * s];
+  const edge = [4.75 * c, MOUTH_Y + 0.12 + (s > 0 ? 2.2 : 2.4) * s];
   const x1 = 2.72 * c, x2 = LINE_HALF * c;
   // The upper lip has a bow, the lower one is fuller.
   const height = s > 0
@@ -57,7 +57,7 @@ export function mouthSkin(skin, lip) {
     for (let c = 0; c < 3; ++c) colors[3 * i + c] = mix(skin[c], lip[c], tint) * dark;
     // At the shells' edge half hangs on each; at the lips an ellipse opens, so that it is shared out by their height.
     const s = Math.sin(angle);
-    const lips = 0.5 - 0.5 * Math.sign(s) * Math.abs(s) ** 0.8;
+    const lips = 0.5 - 0.5 * Math.sign(s) * Math.abs(s) ** 0.62;
     return mix(smooth(0.16, -0.16, s), lips, smooth(0.1, 1, row));
   });
   geometry.setAttribute('color', new BufferAttribute(colors, 3));

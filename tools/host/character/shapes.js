@@ -40,8 +40,8 @@ export const jawShapes = {
 };
 
 // On the lips 1, fading to 0 where the skin is held by the shells.
-const lips = ([x, y]) => smooth(1, 0.42, Math.hypot(x / 4.3, (y - MOUTH_Y) / 2.3));
-const corner = ([x, y]) => bump(x, y, 2.5, MOUTH_Y, 1.6, 1.2) * smooth(1, 0.6, Math.hypot(x / 4.3, (y - MOUTH_Y) / 2.3));
+const lips = ([x, y]) => smooth(1, 0.42, Math.hypot(x / 4.6, (y - MOUTH_Y) / 2.3));
+const corner = ([x, y]) => bump(x, y, 2.6, MOUTH_Y, 1.75, 1.5) * smooth(1, 0.5, Math.hypot(x / 4.75, (y - MOUTH_Y) / 2.4));
 const leftHalf = ([x]) => smooth(-0.7, 0.9, x);
 const upper = (p, jaw) => lips(p) * smooth(0.6, 0.2, jaw);
 const lower = (p, jaw) => lips(p) * smooth(0.4, 0.8, jaw);
@@ -50,7 +50,7 @@ const toLine = ([, y]) => MOUTH_Y - y;
 export const mouthShapes = {
   ...jawShapes,
   ...bothSides({
-    mouthSmile: (p) => sum(times(corner(p), [1.1, 0.95, -0.6]), times(lips(p) * leftHalf(p), [0, 0.12 * toLine(p), -0.12])),
+    mouthSmile: (p) => sum(times(corner(p), [0.95, 1.0, -0.6]), times(lips(p) * leftHalf(p), [0, 0.12 * toLine(p), -0.12])),
     mouthFrown: (p) => times(corner(p), [0.15, -1.05, -0.15]),
     mouthDimple: (p) => times(corner(p), [0.45, 0.1, -0.6]),
     mouthStretch: (p) => times(corner(p), [1.0, -0.35, -0.5]),

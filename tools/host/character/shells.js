@@ -15,9 +15,9 @@ const plate = (columns, rows, [az0, az1], [y0, y1], options = {}) => grid(column
 
 // The mouth's hole in face and jaw, smaller than the skin that fills it.
 const inMouth = ([x, y]) => {
-  const dx = x / 4.1, dy = (y - MOUTH_Y - 0.12) / 2.08;
+  const dx = x / 4.45, dy = (y - MOUTH_Y - 0.12) / 2.08;
   const r = Math.hypot(dx, dy);
-  if (r >= 1 || Math.abs(x) > 4.3) return null;
+  if (r >= 1 || Math.abs(x) > 4.6) return null;
   const px = x / Math.max(r, 1e-6), py = MOUTH_Y + 0.12 + (y - MOUTH_Y - 0.12) / Math.max(r, 1e-6);
   return [px, py, front(px, py)];
 };
