@@ -21,6 +21,7 @@ void AddBlend(CLI::App& facewire);
 void AddStatus(CLI::App& facewire);
 void AddService(CLI::App& facewire);  // neutral, stop, release, reload
 void AddSheet(CLI::App& facewire);
+void AddServe(CLI::App& facewire);
 void AddDoctor(CLI::App& facewire);
 
 }  // namespace facewire::tools

@@ -32,6 +32,7 @@ void AddCommands(CLI::App& facewire) {
   AddStatus(facewire);
   AddService(facewire);
   AddSheet(facewire);
+  AddServe(facewire);
   AddDoctor(facewire);
 }
 

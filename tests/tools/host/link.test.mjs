@@ -61,6 +61,7 @@ test('a link asks for the rig until it is there, and then follows poses', async 
   assert.equal(link.state, 'live');
   assert.equal(link.rig.name, 'otto');
   assert.equal(link.values.length, link.rig.channels.length);
+  assert.ok(Math.abs(link.rate - 24) < 1, String(link.rate));
   line.codes();
   await pass(2000);
   assert.ok(!line.codes().includes(COMMANDS.describe_rig));
@@ -89,6 +90,7 @@ test('a line that is closed is opened again by itself, at growing intervals unti
   line.there = true;
   await pass(4200);
   assert.equal(line.opened, 2);
+  assert.equal(link.openings, 2);
   assert.equal(link.state, 'waiting');
   line.to.bytes(franck);
   assert.equal(link.state, 'live');

@@ -34,12 +34,13 @@ export class Link {
   #clock;
   #lastPose = -Infinity;
   #lastAsked = -Infinity;
+  #openings = 0;
   #retries = 0;
   #retryAt = Infinity;
   #id = 0;
   #pings = new Map(); // id -> when it was sent
   #best = null; // { roundTrip, offset }: the device's clock minus ours, ms
-  #arrivals = [];
+  #arrivals = []; // [{ at, captured }], each on its own clock, ms
   #delays = [];
 
   constructor(clock = () => performance.now()) { this.#clock = clock; }
@@ -47,7 +48,7 @@ export class Link {
   open(source) {
     this.close();
     this.#source = source;
-    this.#retries = 0;
+    this.#openings = this.#retries = 0;
     this.#earlier = { damaged: 0, lost: 0 };
     this.#forget();
     this.#start();
@@ -61,14 +62,17 @@ export class Link {
   }
 
   get #now() { return this.#clock(); }
+  // How often this source was there.
+  get openings() { return this.#openings; }
   get source() { return this.#source; }
   get damaged() { return this.#earlier.damaged + this.#decoder.damaged; }
   get lost() { return this.#earlier.lost + this.#decoder.stats.lost; }
 
-  // Poses a second, over the last two seconds.
+  // Poses a second by the camera's clock, because a busy browser takes several at once; of the last two seconds.
   get rate() {
-    const recent = this.#arrivals.filter((t) => this.#now - t <= 2000);
-    return recent.length > 1 ? (1000 * (recent.length - 1)) / (recent.at(-1) - recent[0]) : 0;
+    const recent = this.#arrivals.filter(({ at }) => this.#now - at <= 2000);
+    const span = recent.length > 1 ? recent.at(-1).captured - recent[0].captured : 0;
+    return span > 0 ? (1000 * (recent.length - 1)) / span : 0;
   }
   // From the picture to the values here, in ms, median of a second: measured where pings told the device's clock, else
   // up to the sending of the pose.
@@ -114,6 +118,7 @@ export class Link {
     if (!mine() || this.state !== 'opening') return;
     this.state = 'waiting';
     this.problem = '';
+    ++this.#openings;
     this.#retries = 0;
     this.#lastAsked = -Infinity;
   }
@@ -172,8 +177,9 @@ export class Link {
     this.pose = pose;
     this.values = values;
     this.#lastPose = this.#now;
-    this.#arrivals = [...this.#arrivals.filter((t) => this.#now - t <= 2000), this.#now];
-    const whole = this.#best && this.#now + this.#best.offset - Number(pose.captured_us) / 1000;
+    const captured = Number(pose.captured_us) / 1000;
+    this.#arrivals = [...this.#arrivals.filter(({ at }) => this.#now - at <= 2000), { at: this.#now, captured }];
+    const whole = this.#best && this.#now + this.#best.offset - captured;
     this.#delays = [...this.#delays.slice(-29), whole ?? pose.age_us / 1000];
     this.onPose(pose, values);
   }

@@ -191,15 +191,18 @@ $('theme').onclick = () => theme(document.documentElement.dataset.theme !== 'lig
 
 // --- a page that comes from `facewire serve` follows its line; any other begins with the recording
 
-const served = new URLSearchParams(location.hash.slice(1)).get('line');
-if (served) {
-  $('url').value = served;
-  link.open(new Socket(served));
+const wanted = new URLSearchParams(location.hash.slice(1)).get('line');
+const own = location.protocol.startsWith('http') ? Object.assign(new URL('/line', location), { hash: '' }).href.replace(/^http/, 'ws') : null;
+if (wanted ?? own) {
+  $('url').value = wanted ?? own;
+  link.open(new Socket(wanted ?? own));
 } else {
   link.open(recording);
 }
 setInterval(() => {
   link.tick();
+  // A web server that has no line: nobody asked for one.
+  if (own && link.source?.url === own && link.state === 'lost' && link.openings === 0) link.open(recording);
   tell();
 }, 100);
 requestAnimationFrame(frame);
