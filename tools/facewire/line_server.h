@@ -18,7 +18,7 @@ class LineServer {
   static constexpr std::size_t kMaxViewers = 16;
   // What waits for a viewer whose network is slow; more, and the oldest goes. The protocol finds
   // its way again.
-  static constexpr std::size_t kMaxWaiting = 64 * 1024;
+  static constexpr std::size_t kMaxWaiting = std::size_t{64} * 1024;
 
   struct Config {
     std::string address = "127.0.0.1";  // of this machine; "0.0.0.0" for all of them
