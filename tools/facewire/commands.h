@@ -22,6 +22,7 @@ void AddBlend(CLI::App& facewire);
 void AddStatus(CLI::App& facewire);
 void AddService(CLI::App& facewire);  // neutral, stop, release, reload
 void AddSheet(CLI::App& facewire);
+void AddServe(CLI::App& facewire);
 void AddServo(CLI::App& facewire);  // servo/: find, list, jog, ...
 void AddRig(CLI::App& facewire);    // import, check, show
 void AddDoctor(CLI::App& facewire);

@@ -33,6 +33,7 @@ void AddCommands(CLI::App& facewire) {
   AddStatus(facewire);
   AddService(facewire);
   AddSheet(facewire);
+  AddServe(facewire);
   AddServo(facewire);
   AddRig(facewire);
   AddDoctor(facewire);

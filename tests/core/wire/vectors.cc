@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <random>
 #include <string>
 #include <string_view>
 
@@ -327,6 +328,48 @@ void AddDamage(std::vector<Vector>& all) {
                 MakeBytes({0, 0, 0x80, 0x3F}) + Bytes(5, std::byte{0}));
 }
 
+// What a bad line makes of it: one byte in `one_in` has a wrong bit, is missing, has a stray one
+// before it, or is a delimiter. The numbers of std::mt19937 are the same everywhere.
+Bytes Noisy(const Bytes& bytes, std::uint32_t one_in) {
+  std::mt19937 random(20);
+  Bytes out;
+  for (std::byte b : bytes) {
+    const auto hit = static_cast<std::uint32_t>(random());
+    const auto bit = static_cast<std::byte>(1U << ((hit >> 16U) & 7U));
+    switch (hit % one_in) {
+      case 0:
+        out.push_back(b ^ bit);
+        break;
+      case 1:
+        break;
+      case 2:
+        out.push_back(bit);
+        out.push_back(b);
+        break;
+      case 3:
+        out.push_back(std::byte{0});
+        break;
+      default:
+        out.push_back(b);
+    }
+  }
+  return out;
+}
+
+void AddBadLine(std::vector<Vector>& all) {
+  Line line;
+  Bytes stream;
+  const BoneDescription bone{.rig_id = kId, .index = 3, .name = *ShortName::From("jaw")};
+  for (int round = 0; round < 12; ++round) {
+    for (const Message& message :
+         {Message(Acknowledgement{}), Message(RampPose(9)), Message(Status{}), Message(bone)}) {
+      stream = stream + line.Send(message);
+    }
+  }
+  all.push_back({"bad_line", "A line that damages one byte in 40, in each of the ways it can",
+                 Noisy(stream, 160)});
+}
+
 }  // namespace
 
 std::vector<Vector> AllVectors() {
@@ -335,6 +378,7 @@ std::vector<Vector> AllVectors() {
   AddLaterVersions(all);
   AddFraming(all);
   AddDamage(all);
+  AddBadLine(all);
   AddServos(all);
   return all;
 }

@@ -1,0 +1,61 @@
+const SECONDS = 10;
+const COLOURS = ['#35c7c2', '#d9a066', '#e2747e', '#8fa8ff', '#9acb6b', '#c792e0', '#e6c84f', '#6fb7e9'];
+
+// The last ten seconds of some channels, each over its own range; gaps where nothing came.
+export class Plot {
+  #samples = []; // [ms, values]
+  #lines = []; // [{ index, name, min, max, colour }]
+
+  constructor(canvas, legend) {
+    this.canvas = canvas;
+    this.legend = legend;
+  }
+
+  choose(channels, names) {
+    this.#lines = channels.flatMap((c, index) => (names.has(c.name) ? [{ ...c, index }] : []))
+      .map((line, i) => ({ ...line, colour: COLOURS[i % COLOURS.length] }));
+    this.legend.replaceChildren(...this.#lines.map(({ name, colour }) => {
+      const item = document.createElement('li'), mark = document.createElement('i');
+      mark.style.background = colour;
+      item.append(mark, name);
+      return item;
+    }));
+  }
+
+  clear() { this.#samples = []; }
+
+  add(now, values) {
+    this.#samples.push([now, values]);
+    while (now - this.#samples[0][0] > 1000 * SECONDS) this.#samples.shift();
+  }
+
+  draw(now) {
+    const { canvas } = this;
+    const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
+    if (canvas.width !== Math.round(width * ratio)) {
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(height * ratio);
+    }
+    const g = canvas.getContext('2d');
+    g.setTransform(ratio, 0, 0, ratio, 0, 0);
+    g.clearRect(0, 0, width, height);
+    const style = getComputedStyle(canvas);
+    g.fillStyle = style.getPropertyValue('--edge');
+    for (let s = 1; s < SECONDS; ++s) g.fillRect((width * s) / SECONDS, 0, 1, height);
+    g.lineWidth = 1.6;
+    g.lineJoin = 'round';
+    for (const { index, min, max, colour } of this.#lines) {
+      g.strokeStyle = colour;
+      g.beginPath();
+      let before = -Infinity;
+      for (const [at, values] of this.#samples) {
+        const x = width * (1 - (now - at) / (1000 * SECONDS));
+        const y = 6 + (height - 12) * (1 - (values[index] - min) / (max - min || 1));
+        if (at - before > 500) g.moveTo(x, y);
+        else g.lineTo(x, y);
+        before = at;
+      }
+      g.stroke();
+    }
+  }
+}
