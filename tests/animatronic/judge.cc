@@ -13,9 +13,9 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::size_t kKept = 20;  // violations of a rule
-// Words to a servo: more than lie between saying one and its last byte. A receiver gives a frame up
-// that was cut for 0.1 s.
-constexpr std::size_t kRemembered = 60;
+// Words to a servo: four seconds of them. A receiver that was cut off still has the last one it
+// heard when it is heard again.
+constexpr std::size_t kRemembered = 400;
 constexpr double kRounding = 1e-3;  // floats carry positions to a part in ten million
 constexpr Duration kLook = milliseconds(1);
 constexpr Duration kTwoTicks = milliseconds(20);

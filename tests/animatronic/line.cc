@@ -221,7 +221,8 @@ Wire Line::wire(std::size_t servo) const {
                  : pulses ? kPulseFrames
                           : Duration{},
       .held_back = pulses ? Duration{} : kWaits,
-      .weak_sum = options_.kind == Kind::kSts || options_.kind == Kind::kScs,
+      .weak_sum = options_.kind == Kind::kSts || options_.kind == Kind::kScs ||
+                  (options_.kind == Kind::kMaestro && !options_.crc),
       .home = options_.home_neutral ? std::optional<double>(servos_[servo].neutral) : std::nullopt,
       // A Dynamixel's speeds are whole steps of 15.6 counts a second.
       .own_speed = pulses ? 0.0 : limits.top_speed_per_s + 16.0};
