@@ -23,7 +23,7 @@ constexpr char kRig[] =
     "[[servo]]\nname = \"jaw\"\nbus = \"head\"\nid = 0\nfrom = { jawOpen = 1 }\n"
     "map = [[0, 1000], [1, 2000]]\nmax_speed = 4000\n"
     "[[servo]]\nname = \"tail\"\nbus = \"head\"\nid = 1\nmin = 1000\nmax = 2000\nmax_speed = 1\n";
-constexpr double kBoot_s = 4711;  // since the machine's
+constexpr double kBootS = 4711;  // since the machine's
 
 double Swing(double t_s) { return 0.5 + 0.3 * std::sin(3 * t_s); }
 
@@ -41,10 +41,10 @@ class FacewireServoSheet : public testing::Test {
                std::to_string(Swing(t_s)) + "\n";
     }
     scratch_.Write("wire.csv", poses);
-    scratch_.Write("head.csv", Trace(kBoot_s));
+    scratch_.Write("head.csv", Trace(kBootS));
   }
   static std::string Micros(double t_s) {
-    return std::to_string(std::llround((kBoot_s + t_s) * 1e6));
+    return std::to_string(std::llround((kBootS + t_s) * 1e6));
   }
   // `boot_s`: of the machine that it ran on.
   static std::string Trace(double boot_s, bool limp_at_end = true) {
@@ -91,7 +91,7 @@ TEST_F(FacewireServoSheet, DrawsWhatAServoDidAndSaysHowFarBehindItWas) {
 }
 
 TEST_F(FacewireServoSheet, DrawsAndFailsWhenAServoHasTorqueAtTheEnd) {
-  scratch_.Write("head.csv", Trace(kBoot_s, false));
+  scratch_.Write("head.csv", Trace(kBootS, false));
   EXPECT_EQ(Draw({Jaw()}).code, 0);
   const Outcome outcome = Draw({Jaw()}, {"--check"});
   EXPECT_EQ(outcome.code, 1);
@@ -114,7 +114,7 @@ TEST_F(FacewireServoSheet, RefusesWhatItCannotDraw) {
 }
 
 TEST_F(FacewireServoSheet, RefusesATraceOfAnotherRun) {
-  scratch_.Write("head.csv", Trace(kBoot_s + 3600));
+  scratch_.Write("head.csv", Trace(kBootS + 3600));
   EXPECT_THAT(Refusal({Jaw()}), HasSubstr("no time in common"));
 }
 

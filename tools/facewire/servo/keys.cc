@@ -79,7 +79,7 @@ std::optional<Key> KeyOfWord(std::string_view word) {
   for (const auto& [name, key] : kWords) {
     if (name == word) return key;
   }
-  if (word.size() == 1) return KeyOf(word[0]);
+  if (word.size() == 1 && word[0] != '=') return KeyOf(word[0]);
   float position = 0;
   const char* const end = word.data() + word.size();
   if (word.starts_with('=') &&

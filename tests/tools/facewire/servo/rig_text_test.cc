@@ -74,14 +74,14 @@ TEST(RigText, TheMapTakesTheOldNeutralToTheNewOne) {
   EXPECT_EQ(
       EditServo(rig, "lid",
                 {.min = 1000, .max = 1700, .neutral = 1510, .map_ends = true, .neutral_was = 1500}),
-      "[[servo]]\nname = \"lid\"\nid = 1\nneutral = 1510\n"
-      "map = [[-12, 1700], [0, 1510], [45, 1000]]\n");
+      "[[servo]]\nname = \"lid\"\nid = 1\nmap = [[-12, 1700], [0, 1510], [45, 1000]]\n"
+      "neutral = 1510\n");
   // Where there is nothing on one side of it, all moves along evenly.
   EXPECT_EQ(
       EditServo(rig, "lid",
                 {.min = 1000, .max = 2000, .neutral = 1000, .map_ends = true, .neutral_was = 1500}),
-      "[[servo]]\nname = \"lid\"\nid = 1\nneutral = 1000\n"
-      "map = [[-12, 2000], [0, 1760.46], [45, 1000]]\n");
+      "[[servo]]\nname = \"lid\"\nid = 1\nmap = [[-12, 2000], [0, 1760.46], [45, 1000]]\n"
+      "neutral = 1000\n");
 }
 
 TEST(RigText, AServoWithoutAMapHasItsLimitsAndTheLastLineNeedsNoEnd) {
