@@ -74,7 +74,8 @@ class Checker {
     CheckSides();
     CheckBones();
     if (!servos_.servos.empty()) CheckServos();
-    std::ranges::stable_partition(remarks_, &Remark::lacks);
+    std::stable_partition(remarks_.begin(), remarks_.end(),
+                          [](const Remark& remark) { return remark.lacks; });
     return std::move(remarks_);
   }
 

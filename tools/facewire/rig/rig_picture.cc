@@ -99,6 +99,7 @@ class View {
       canvas.Disc(At(face_.At(i)), 1.6, palette::kTrack);
     for (const auto& outline : Outlines()) {
       std::vector<cv::Point2d> line;
+      line.reserve(outline.size());
       for (const int index : outline) line.push_back(At(face_.At(static_cast<std::size_t>(index))));
       canvas.Stroke(line, kFaint, 1.6, true);
     }
