@@ -33,6 +33,8 @@ const char* RefusedText(CommandCode code) noexcept {
       return "the emergency stop's line is open: unlock its switch, or mend its wire, then release";
     case CommandCode::kBlendProfile:
       return "there is no personal profile to blend in, or the part is not within 0 and 100 %";
+    case CommandCode::kMoveServo:
+      return "no such servo is driven by this service, or an emergency stop holds";
     case CommandCode::kReport:
     case CommandCode::kReload:
       return "only programs on the device itself may ask that, on its control socket";

@@ -276,6 +276,12 @@ void Service::Obey(const Request& request, state::Inputs& in) noexcept {
       }
       break;
     }
+    case wire::CommandCode::kMoveServo:
+      if (parts_.servos == nullptr || motion_.state() == ServiceState::kStopped ||
+          !parts_.servos->MoveByHand(request.command.item, request.command.value)) {
+        result = wire::CommandResult::kRefused;
+      }
+      break;
     default:
       result = wire::CommandResult::kUnknown;
   }

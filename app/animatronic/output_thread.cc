@@ -2,17 +2,25 @@
 
 #include <pthread.h>
 
+#include <cmath>
+#include <limits>
 #include <string>
 #include <system_error>
 
 #include "app/error.h"
 
 namespace facewire::app {
+namespace {
+
+constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+
+}  // namespace
 
 OutputThread::OutputThread(ServoOutput& output, hal::Clock& clock) noexcept
     : output_(output), clock_(clock) {
   next_.servo_count = static_cast<std::uint8_t>(output.animatronic().servos());
   next_.bus_count = static_cast<std::uint8_t>(output.animatronic().buses());
+  for (std::atomic<float>& hand : hands_) hand.store(kNothing);
 }
 
 void OutputThread::Begin() {
@@ -53,12 +61,26 @@ void OutputThread::Step() noexcept {
     animatronic.stopped() ? animatronic.Release() : animatronic.Stop();
   }
   if (const servo::Wishes* wishes = wishes_.Take()) animatronic.Take(*wishes, now);
+  TakeHands(now);
   output_.Tick();
   ++next_.ticks;
   Watch(now);
   if (now < next_report_) return;
   next_report_ = now + kReportEvery;
   Report(now);
+}
+
+bool OutputThread::MoveByHand(std::size_t servo, float position) noexcept {
+  if (servo >= output_.animatronic().servos() || !std::isfinite(position)) return false;
+  hands_[servo].store(position);
+  return true;
+}
+
+void OutputThread::TakeHands(Time now) noexcept {
+  for (std::size_t i = 0; i < next_.servo_count; ++i) {
+    const float position = hands_[i].exchange(kNothing);
+    if (!std::isnan(position)) output_.animatronic().SetManual(i, position, now);
+  }
 }
 
 // What must not be missed between two reports.

@@ -43,6 +43,9 @@ class OutputThread {
   // The service's, from one thread. Wishes that do not come any more are a silence, and the rig's
   // contract takes its course.
   void Hand(const servo::Wishes& wishes) noexcept { wishes_.Put(wishes); }
+  // One servo by hand, before all wishes, until it is not repeated any more (servo/aim.h). False
+  // for an index beyond the last servo, and for what is no number.
+  bool MoveByHand(std::size_t servo, float position) noexcept;
   // From the next tick on nothing moves, until SetStopped(false).
   void SetStopped(bool stopped) noexcept { stopped_.store(stopped); }
   // The newest one; of no servo and no bus before the first.
@@ -55,6 +58,7 @@ class OutputThread {
 
  private:
   void Run() noexcept;
+  void TakeHands(Time now) noexcept;
   void Watch(Time now) noexcept;
   void Report(Time now) noexcept;
 
@@ -64,6 +68,8 @@ class OutputThread {
   std::atomic<bool> ending_{false};
   std::atomic<bool> stopped_{false};
   Latest<servo::Wishes> wishes_;
+  std::array<std::atomic<float>, kMaxServos> hands_;  // NaN: nothing new
+  static_assert(std::atomic<float>::is_always_lock_free);
   Latest<ServoReport> reports_;
 
   // The thread's.

@@ -146,6 +146,7 @@ Command ReadCommand(Reader& r) noexcept {
   m.id = r.Integer<std::uint16_t>();
   m.code = static_cast<CommandCode>(r.Integer<std::uint8_t>());
   if (TakesValue(m.code)) m.value = r.Float();
+  if (TakesItem(m.code)) m.item = r.Integer<std::uint8_t>();
   return m;
 }
 

@@ -184,6 +184,7 @@ Result<std::span<const byte>> Encoder::Encode(const Command& m, std::span<byte> 
   w.Integer(m.id);
   w.Integer(static_cast<std::uint8_t>(m.code));
   if (TakesValue(m.code)) w.Float(m.value);
+  if (TakesItem(m.code)) w.Integer(m.item);
   return Finish(w);
 }
 

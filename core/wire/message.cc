@@ -22,6 +22,8 @@ const char* Name(CommandCode code) noexcept {
       return "report";
     case CommandCode::kReload:
       return "reload";
+    case CommandCode::kMoveServo:
+      return "move_servo";
   }
   return "unknown";
 }

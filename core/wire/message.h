@@ -99,14 +99,21 @@ enum class CommandCode : std::uint8_t {
   kBlendProfile = 7,      // value: the part of the personal profile, 0..1
   kReport = 8,            // how the service fares, as Text; on the control socket alone, as is
   kReload = 9,            // read the configuration again; Text says what is wrong with it
+  // item: a servo, by its place in the rig's file; value: its position, in its own unit. A hand
+  // goes before the performer for as long as it repeats this within the rig's `fresh` (200 ms).
+  kMoveServo = 10,
 };
 
 struct Command {
   std::uint16_t id = 0;  // the host's own number, repeated in the acknowledgement
   CommandCode code = CommandCode::kPing;
-  float value = 0;  // on the wire only where TakesValue(code)
+  float value = 0;        // on the wire only where TakesValue(code)
+  std::uint8_t item = 0;  // on the wire only where TakesItem(code)
 };
-constexpr bool TakesValue(CommandCode code) noexcept { return code == CommandCode::kBlendProfile; }
+constexpr bool TakesItem(CommandCode code) noexcept { return code == CommandCode::kMoveServo; }
+constexpr bool TakesValue(CommandCode code) noexcept {
+  return code == CommandCode::kBlendProfile || TakesItem(code);
+}
 
 // The numbers are those of the wire: append only; one that is not named here is a failure.
 enum class CommandResult : std::uint8_t {
@@ -174,7 +181,7 @@ inline constexpr std::size_t kMaxDescriptionPayloadBytes = 4 + 1 + 1 + 1 + 12 + 
 inline constexpr std::size_t kStatusPayloadBytes = 43;
 // With the value or measure that some have.
 inline constexpr std::size_t kMaxAcknowledgementPayloadBytes = 12 + 4;
-inline constexpr std::size_t kMaxCommandPayloadBytes = 3 + 4;
+inline constexpr std::size_t kMaxCommandPayloadBytes = 3 + 4 + 1;
 inline constexpr std::size_t kMaxTextPayloadBytes = 4 + kMaxTextBytes;
 // Buffers of these sizes always suffice for the message.
 inline constexpr std::size_t kMaxDescriptionFrameBytes = MaxFrameBytes(kMaxDescriptionPayloadBytes);

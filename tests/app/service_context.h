@@ -149,10 +149,11 @@ class ServiceContext {
     For(std::chrono::milliseconds(500));
     ASSERT_EQ(service->state(), ServiceState::kTracking);
   }
-  void SendCommand(wire::CommandCode code, std::uint16_t id = 7, float value = 0) {
+  void SendCommand(wire::CommandCode code, std::uint16_t id = 7, float value = 0,
+                   std::uint8_t item = 0) {
     std::array<std::byte, wire::kCommandFrameBytes> frame;
-    const auto bytes =
-        host_encoder.Encode(wire::Command{.id = id, .code = code, .value = value}, frame);
+    const auto bytes = host_encoder.Encode(
+        wire::Command{.id = id, .code = code, .value = value, .item = item}, frame);
     ASSERT_TRUE(bytes);
     ASSERT_TRUE(port.Feed(*bytes));
   }

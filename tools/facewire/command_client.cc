@@ -54,6 +54,13 @@ wire::Acknowledgement CommandClient::Ask(wire::Command command, Duration timeout
                      InSeconds(timeout) + "; give it longer with --timeout");
 }
 
+std::optional<wire::Acknowledgement> CommandClient::Say(wire::Command command, Duration longest) {
+  command.id = ++last_id_;
+  text_.clear();
+  Send(command);
+  return Await(command.id, clock_.Now() + longest);
+}
+
 void CommandClient::Send(const wire::Command& command) {
   std::array<std::byte, wire::kCommandFrameBytes> buffer;
   const auto frame = encoder_.Encode(command, buffer);

@@ -24,6 +24,9 @@ class CommandClient {
   // command that was heard twice might be done twice. Throws Failure when nothing answers within
   // `timeout`, or the line is lost.
   wire::Acknowledgement Ask(wire::Command command, Duration timeout);
+  // Says it once, and waits for its answer for `longest` at most: for what is repeated anyway.
+  // Throws Failure when the line is lost.
+  std::optional<wire::Acknowledgement> Say(wire::Command command, Duration longest);
   // What the last answer said in words besides; usually nothing.
   const std::string& text() const { return text_; }
 

@@ -1,19 +1,16 @@
 // Commands to a running service.
 
-#include <grp.h>
-#include <sys/stat.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
 
 #include "app/answer_text.h"
-#include "app/devices.h"
 #include "app/error.h"
 #include "hal/system_clock.h"
 #include "tools/facewire/command_client.h"
 #include "tools/facewire/commands.h"
+#include "tools/facewire/open_service.h"
 #include "tools/facewire/report_text.h"
 
 namespace facewire::tools {
@@ -27,38 +24,13 @@ struct ControlOptions {
   bool json = false;
 };
 
-// The group that the service's socket belongs to; the folder may hide it, but then it is the usual
-// one.
-std::string GroupOf(const std::string& path) {
-  struct stat node {};
-  const group* entry = ::stat(path.c_str(), &node) == 0 ? ::getgrgid(node.st_gid) : nullptr;
-  return entry == nullptr ? "facewire" : entry->gr_name;
-}
-
-// One wherever the service is: its socket on this machine, or a device at the end of a line.
-std::unique_ptr<hal::SerialPort> OpenService(const ControlOptions& options) {
-  auto port = app::MakeSerialPort(options.where, options.baud);
-  const Result<> opened = port->Open();
-  if (opened) return port;
-  if (opened.error() == Errc::kNotFound) {
-    throw app::BadInput("no service is at " + options.where +
-                        "; start facewired, or give its control socket, or the port of a device");
-  }
-  if (opened.error() == Errc::kPermission) {
-    throw app::BadInput("no permission for " + options.where +
-                        "; add yourself to its group: sudo usermod -aG " + GroupOf(options.where) +
-                        " $USER, then log in again");
-  }
-  throw app::BadInput(app::DescribeSerialError(opened.error(), options.where, options.baud));
-}
-
 struct Answered {
   wire::Acknowledgement answer;
   std::string text;  // what the service says besides, lines
 };
 
 Answered Ask(const wire::Command& command, const ControlOptions& options) {
-  const auto port = OpenService(options);
+  const auto port = OpenService(options.where, options.baud);
   hal::SystemClock clock;
   CommandClient client(options.where, *port, clock);
   const wire::Acknowledgement answer =

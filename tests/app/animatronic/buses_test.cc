@@ -116,6 +116,12 @@ TEST_F(Buses, MoveTheJawOfAReplayedFaceAndAreLeftLimp) {
   EXPECT_EQ(status.Wait(), 0) << status.err();
   EXPECT_THAT(status.out(), HasSubstr("bus      sts: feetech, "));
   EXPECT_THAT(status.out(), HasSubstr("servo    jaw-xl330 (xl330 1)      on, following"));
+  // The face never opens its mouth as far.
+  Process hand({FACEWIRE_TOOL, "servo", "move", "jaw-sts", "2690", "--live", "--seconds", "2",
+                "--config", (scratch_ / "facewire.toml").string()},
+               scratch_ / "hand", scratch_ / "hand.err");
+  EXPECT_EQ(hand.Wait(), 0) << hand.err();
+  EXPECT_EQ(hand.out(), "jaw-sts: was held at 2690 counts; the performer has it again\n");
   service.Signal(SIGTERM);
   EXPECT_EQ(service.Wait(), 0) << service.err();
   EXPECT_EQ(service.err().find("servo "), std::string::npos) << service.err();
@@ -124,6 +130,8 @@ TEST_F(Buses, MoveTheJawOfAReplayedFaceAndAreLeftLimp) {
     EXPECT_EQ(sim->Wait(), 0);
   }
   for (const char* kind : {"maestro", "sts", "xl330"}) EXPECT_FALSE(Read(kind).torque) << kind;
+  EXPECT_NEAR(Read("sts").most, 2690, 20);
+  EXPECT_LT(Read("xl330").most, 2600);
 }
 
 TEST_F(Buses, AreNamedByACheckOfTheConfiguration) {

@@ -102,6 +102,50 @@ TEST(OutputThread, SaysSinceWhenAPortIsLost) {
   EXPECT_FALSE(r.thread->report().servos[0].stranded);
 }
 
+TEST(OutputThread, AHandHasOneServoForAsLongAsItRepeatsItself) {
+  SimRig r;
+  r.Build();
+  r.For(seconds(4), 1500);
+  for (int i = 0; i < 40; ++i) {
+    EXPECT_TRUE(r.thread->MoveByHand(0, 1900));
+    r.For(milliseconds(50), 1500);
+  }
+  EXPECT_NEAR(r.bus.Position(0), 1900, 12);
+  EXPECT_NEAR(r.bus.Position(1), 1500, 12) << "the performer's";
+  EXPECT_EQ(r.thread->report().servos[0].command.activity, servo::Activity::kManual);
+  EXPECT_EQ(r.thread->report().servos[1].command.activity, servo::Activity::kFollowing);
+  r.For(milliseconds(300), 1500);  // fresh, 200 ms, is over
+  EXPECT_EQ(r.thread->report().servos[0].command.activity, servo::Activity::kFollowing);
+  r.For(seconds(2), 1500);
+  EXPECT_NEAR(r.bus.Position(0), 1500, 12);
+}
+
+TEST(OutputThread, AHandHoldsNeitherLimitsNorAStopBack) {
+  SimRig r;
+  r.Build();
+  r.For(seconds(4), 1500);
+  for (int i = 0; i < 60; ++i) {
+    EXPECT_TRUE(r.thread->MoveByHand(0, 9999));
+    r.For(milliseconds(50), 1500);
+  }
+  EXPECT_NEAR(r.bus.Position(0), 2000, 12) << "its max";
+  r.thread->SetStopped(true);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_TRUE(r.thread->MoveByHand(0, 1000));
+    r.For(milliseconds(50), 1500);
+  }
+  EXPECT_FALSE(r.bus.TorqueOn(0));
+  EXPECT_EQ(r.output->animatronic().commands().servos[0].position, 2000);
+}
+
+TEST(OutputThread, AHandIsRefusedWithoutAServoOrANumber) {
+  SimRig r;
+  r.Build();
+  EXPECT_FALSE(r.thread->MoveByHand(2, 1500));
+  EXPECT_FALSE(r.thread->MoveByHand(255, 1500));
+  EXPECT_FALSE(r.thread->MoveByHand(0, SimRig::kNoWish));
+}
+
 // The real thread at its real pace, with wishes and stops from another.
 TEST(OutputThread, KeepsItsPaceAndEndsLimp) {
   hal::SystemClock clock;

@@ -39,7 +39,7 @@ class Puppet : public ServiceContext {
   // Servos tick at 100 Hz, on a clock of their own that is kept up with the service's.
   void Run(Duration time) {
     for (const Time end = clock.Now() + time; clock.Now() < end;) {
-      service->Tick();
+      Tick();
       while (servos.clock.Now() < clock.Now()) servos.Tick();
     }
   }
@@ -48,6 +48,14 @@ class Puppet : public ServiceContext {
     follower.failure.reset();
     Run(seconds(2));
     ASSERT_EQ(service->state(), S::kTracking);
+  }
+
+  // Of the command with this id; unknown when none came.
+  wire::CommandResult ResultOf(std::uint16_t id) const {
+    for (const wire::Acknowledgement& answer : answers) {
+      if (answer.id == id) return answer.result;
+    }
+    return wire::CommandResult::kUnknown;
   }
 
   SimRig servos;
@@ -109,6 +117,29 @@ TEST(ServiceServos, LoseTheirPowerWithTheirPortAfterTheContractsTime) {
   EXPECT_FALSE(p.power.asserted());
   p.Run(seconds(5));
   EXPECT_FALSE(p.power.asserted());
+}
+
+TEST(ServiceServos, AreMovedByHandBeforeTheFace) {
+  Puppet p;
+  p.follower.jaw = 10;
+  p.Track();
+  p.Run(seconds(2));
+  for (int i = 0; i < 30; ++i) {
+    p.SendCommand(wire::CommandCode::kMoveServo, 40, 1200, 0);
+    p.Run(milliseconds(100));
+  }
+  EXPECT_NEAR(p.servos.bus.Position(0), 1200, 12);
+  EXPECT_EQ(p.ResultOf(40), wire::CommandResult::kOk);
+  p.Run(seconds(3));
+  EXPECT_NEAR(p.servos.bus.Position(0), 1600, 12) << "the face has it again";
+  p.SendCommand(wire::CommandCode::kMoveServo, 41, 1200, 2);
+  p.Run(milliseconds(100));
+  EXPECT_EQ(p.ResultOf(41), wire::CommandResult::kRefused) << "there are two";
+  p.stop.Hold(true);
+  p.Run(milliseconds(100));
+  p.SendCommand(wire::CommandCode::kMoveServo, 42, 1200, 0);
+  p.Run(milliseconds(100));
+  EXPECT_EQ(p.ResultOf(42), wire::CommandResult::kRefused) << "stopped";
 }
 
 TEST(ServiceServos, GetNoWordFromAThreadThatHangs) {

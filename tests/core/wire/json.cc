@@ -119,6 +119,7 @@ struct AddFields {
   void operator()(const Command& m) const {
     o.Text("type", "command").Int("id", m.id).Int("code", static_cast<int>(m.code));
     if (TakesValue(m.code)) o.Float("value", m.value);
+    if (TakesItem(m.code)) o.Int("item", m.item);
   }
 };
 

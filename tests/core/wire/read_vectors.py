@@ -20,7 +20,8 @@ MIN_PULSE, MAX_PULSE = 2000, 10000  # quarters of a microsecond
 KINDS = ["parameter", "position_x", "position_y", "position_z", "pitch", "yaw", "roll"]
 FAULT = 7
 LAST_RECEIVER_STATE = 7
-CODES_WITH_VALUE = {7}
+CODES_WITH_VALUE = {7, 10}
+CODES_WITH_ITEM = {10}
 RESULTS_WITH_MEASURE = range(5, 10)
 
 
@@ -105,6 +106,8 @@ def read_command(p):
     message = dict(zip(["id", "code"], p.take("HB")))
     if message["code"] in CODES_WITH_VALUE:
         message["value"] = p.take("f")
+    if message["code"] in CODES_WITH_ITEM:
+        message["item"] = p.take("B")
     return {"type": "command", **message}
 
 

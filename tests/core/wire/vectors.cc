@@ -177,6 +177,8 @@ void AddMessages(std::vector<Vector>& all) {
   add("text_full", "The longest text", SomeText(std::string(kMaxTextBytes, 'x')));
   add("command_reload", "Read the configuration again",
       Command{.id = 9, .code = CommandCode::kReload});
+  add("command_move_servo", "The fourth servo to 1500.25 by hand",
+      Command{.id = 10, .code = CommandCode::kMoveServo, .value = 1500.25F, .item = 3});
   Line host;
   Bytes commands;
   for (int code = 1; code <= 6; ++code) {

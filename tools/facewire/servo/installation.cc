@@ -32,6 +32,7 @@ Installation LoadInstallation(const std::filesystem::path& config) {
   }
   const Rig rig = app::LoadRig(read.character.rig);
   return {.rig_file = read.character.rig,
+          .control = read.control.socket,
           .buses = read.buses,
           .servos = app::LoadServoRig(read.character.rig, rig)};
 }
@@ -75,7 +76,7 @@ Installation PartOf(const Installation& all, std::size_t servo) {
       kept.insert({rule.yields, rule.other});
     }
   }
-  Installation part{.rig_file = all.rig_file, .buses = {}, .servos = {}};
+  Installation part{.rig_file = all.rig_file, .control = {}, .buses = {}, .servos = {}};
   part.servos.contract = all.servos.contract;
   part.servos.following = all.servos.following;
   std::vector<std::uint8_t> place(all.servos.servos.size());
@@ -126,7 +127,7 @@ Installation Alone(const app::ServoBusConfig& bus, const servo::Servo& known) {
   servo.max_speed_per_s = limited ? known.crawl_speed_per_s : cautious;
   servo.crawl_speed_per_s = servo.max_speed_per_s;
   servo.max_acceleration_per_s2 = servo.max_speed_per_s / kSecondsToFullSpeed;
-  Installation alone{.rig_file = {}, .buses = {bus}, .servos = {}};
+  Installation alone{.rig_file = {}, .control = {}, .buses = {bus}, .servos = {}};
   (void)alone.servos.servos.try_push(servo);
   return alone;
 }

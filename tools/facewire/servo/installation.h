@@ -14,6 +14,7 @@ namespace facewire::tools {
 // The servos of a configuration and the buses that they hang on.
 struct Installation {
   std::filesystem::path rig_file;
+  std::filesystem::path control;  // the service's socket; empty: it has none
   std::vector<app::ServoBusConfig> buses;
   servo::ServoRig servos;
 };

@@ -10,6 +10,7 @@
 #include "app/error.h"
 #include "hal/system_clock.h"
 #include "tools/facewire/servo/jog.h"
+#include "tools/facewire/servo/live.h"
 #include "tools/facewire/servo/open.h"
 #include "tools/facewire/servo/rig_text.h"
 #include "tools/facewire/servo/verbs.h"
@@ -23,6 +24,7 @@ struct MoveOptions {
   std::string config = kUsualConfig;
   double position = 0;
   double seconds = 1;
+  bool live = false;
 };
 
 // From nothing to a servo that is ready, with all its settings read.
@@ -44,16 +46,37 @@ void JogServo(const MoveOptions& options) {
   RunJog(jog, *mover, [&] { return stop.Raised(); });
 }
 
+void CheckLimits(const servo::Servo& servo, const MoveOptions& options) {
+  if (options.position >= servo.min && options.position <= servo.max) return;
+  throw app::BadInput(PositionText(options.position) + " is outside the limits of \"" +
+                      options.servo + "\", " + PositionText(servo.min) + " to " +
+                      PositionText(servo.max));
+}
+
+void MoveLive(const MoveOptions& options) {
+  const Installation all = LoadInstallation(options.config);
+  const std::size_t servo = FindServo(all, options.servo);
+  CheckLimits(all.servos.servos[servo], options);
+  hal::SystemClock clock;
+  const StopFlag stop;
+  HoldLive(all, servo, static_cast<float>(options.position),
+           Duration(static_cast<std::int64_t>(1e6 * options.seconds)), clock,
+           [&] { return stop.Raised(); });
+  std::printf("%s: was held at %s %s; the performer has it again\n", options.servo.c_str(),
+              PositionText(options.position).c_str(),
+              UnitOf(FindBus(all, all.servos.servos[servo].bus.view())));
+}
+
 void Move(const MoveOptions& options) {
+  if (options.live) {
+    MoveLive(options);
+    return;
+  }
   hal::SystemClock clock;
   const auto mover = OpenServo(options, clock);
   const servo::Servo& servo = mover->servo();
+  CheckLimits(servo, options);
   const auto to = static_cast<float>(options.position);
-  if (!(to >= servo.min && to <= servo.max)) {
-    throw app::BadInput(PositionText(options.position) + " is outside the limits of \"" +
-                        options.servo + "\", " + PositionText(servo.min) + " to " +
-                        PositionText(servo.max));
-  }
   const StopFlag stop;
   mover->Open(kLongestSearch);
   // A crawl there, and twice as long for what may come between.
@@ -103,6 +126,8 @@ void AddServoMove(CLI::App& servo) {
   command->add_option("--seconds", options->seconds, "Hold it there so long")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 3600.0));
+  command->add_flag("--live", options->live,
+                    "Have the running service do it: the performer keeps all other servos");
   command->footer("Limits, crawl, speeds and rules of the rig hold.");
   command->callback([options] { Move(*options); });
 }

@@ -8,7 +8,7 @@ namespace facewire::tools {
 
 std::string WithService(const std::string& line) {
   if (line.find("in use by another program") == std::string::npos) return line;
-  return line + "; if it is the service: sudo systemctl stop facewired";
+  return line + "; if it is the service: sudo systemctl stop facewired, or move with --live";
 }
 
 void OpenOutput(app::ServoOutput& output) {

@@ -1,5 +1,5 @@
 import { crc32 } from './crc32.js';
-import { COMMAND, VERSION, takesValue } from './message.js';
+import { COMMAND, VERSION, takesItem, takesValue } from './message.js';
 
 // COBS: no zero is left in what it returns. Blocks end with a zero, or after 254 bytes without one.
 function cobs(plain) {
@@ -28,18 +28,22 @@ function cobs(plain) {
 export class Encoder {
   #sequence = 0;
 
-  // The bytes for the line. `id` is any u16, repeated by the acknowledgement; `code` one of COMMANDS; `value` is for
-  // codes that take one. Throws RangeError for what no command can hold.
-  command(id, code, value = 0) {
+  // The bytes for the line. `id` is any u16, repeated by the acknowledgement; `code` one of COMMANDS; `value` and
+  // `item` are for codes that take one. Throws RangeError for what no command can hold.
+  command(id, code, value = 0, item = 0) {
     if (!Number.isInteger(id) || id < 0 || id > 0xffff) throw new RangeError(`a command's id is 0 to 65535, not ${id}`);
     if (!Number.isInteger(code) || code < 0 || code > 0xff) throw new RangeError(`a command's code is 0 to 255, not ${code}`);
-    const payload = new Uint8Array(takesValue(code) ? 7 : 3);
+    const payload = new Uint8Array(takesItem(code) ? 8 : takesValue(code) ? 7 : 3);
     const view = new DataView(payload.buffer);
     view.setUint16(0, id, true);
     view.setUint8(2, code);
     if (takesValue(code)) {
       if (!Number.isFinite(Math.fround(value))) throw new RangeError(`a command's value is a number, not ${value}`);
       view.setFloat32(3, value, true);
+    }
+    if (takesItem(code)) {
+      if (!Number.isInteger(item) || item < 0 || item > 0xff) throw new RangeError(`a command's item is 0 to 255, not ${item}`);
+      view.setUint8(7, item);
     }
     return this.#frame(COMMAND, payload);
   }

@@ -13,8 +13,10 @@ const LAST_RECEIVER_STATE = 7;
 
 export const COMMANDS = {
   ping: 1, describe_rig: 2, calibrate_neutral: 3, rest: 4, stop: 5, release: 6, blend_profile: 7, report: 8, reload: 9,
+  move_servo: 10,
 };
-export const takesValue = (code) => code === COMMANDS.blend_profile;
+export const takesItem = (code) => code === COMMANDS.move_servo;
+export const takesValue = (code) => code === COMMANDS.blend_profile || takesItem(code);
 
 export const RESULTS = ['ok', 'unknown', 'refused', 'no_face', 'failed', 'head_turned', 'head_moved', 'face_moved',
   'eyes_closed', 'mouth_open', 'not_kept'];
@@ -151,7 +153,9 @@ function readReceiverStatus(r) {
 
 function readCommand(r) {
   const m = { type: 'command', id: r.u16(), code: r.u8() };
-  return takesValue(m.code) ? { ...m, value: r.f32() } : m;
+  if (takesValue(m.code)) m.value = r.f32();
+  if (takesItem(m.code)) m.item = r.u8();
+  return m;
 }
 
 export const COMMAND = 0x80; // the type that a host sends
