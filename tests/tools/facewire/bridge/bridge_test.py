@@ -303,6 +303,14 @@ class Program(Checks):
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
             self.assertIn(part, done.stderr)
 
+    def test_a_file_that_is_no_recording_is_said_in_one_line_alone(self):
+        with tempfile.NamedTemporaryFile("w") as file:
+            file.write("this is text")
+            file.flush()
+            done = subprocess.run([FACEWIRE, "bridge", file.name, "--vmc", "127.0.0.1"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertEqual(done.stderr, f"facewire: {file.name} holds no pose of a rig that it describes\n")
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], *sys.argv[4:]])
