@@ -8,7 +8,7 @@ export function materials() {
     shell: new MeshPhysicalMaterial({ name: 'shell', color: SHELL, roughness: 0.42, clearcoat: 0.55, clearcoatRoughness: 0.22 }),
     lid: new MeshStandardMaterial({ name: 'lid', color: 0xcdb29c, roughness: 0.42 }),
     skin: new MeshPhysicalMaterial({ name: 'skin', color: 0xffffff, vertexColors: true, roughness: 0.44, clearcoat: 0.4, clearcoatRoughness: 0.28 }),
-    blush: new MeshStandardMaterial({ name: 'blush', color: 0xe3b39c, roughness: 0.42 }),
+    blush: new MeshStandardMaterial({ name: 'blush', color: 0xe3bda8, roughness: 0.42 }),
     light: new MeshStandardMaterial({ name: 'light', color: 0x0b2b2c, emissive: 0x27d3cf, emissiveIntensity: 1.6 }),
     brow: new MeshStandardMaterial({ name: 'brow', color: 0x33241d, roughness: 0.6 }),
     graphite: new MeshStandardMaterial({ name: 'graphite', color: 0x24272b, roughness: 0.5, metalness: 0.55 }),
