@@ -5,7 +5,7 @@ import { test } from 'node:test';
 import { Decoder } from '../../../tools/host/decoder/decoder.js';
 import { LandmarkCollector } from '../../../tools/host/decoder/landmarks.js';
 import { RigCollector, valuesOf } from '../../../tools/host/decoder/rig.js';
-import { CONTOURS } from '../../../tools/host/page/landmarks.js';
+import { CONTOURS, IRISES } from '../../../tools/host/page/landmarks.js';
 import { describe, duration } from '../../../tools/host/page/status.js';
 
 const bytes = (at) => new Uint8Array(readFileSync(new URL(`../../../${at}`, import.meta.url)));
@@ -79,7 +79,8 @@ test('the recording smiles, blinks, opens its mouth and turns its head both ways
 test('lines lie on landmarks, go to each at most once, and are the mirror images of those on the other side', () => {
   const [{ points }] = pictures(recorded).filter((p) => p.points.length > 0);
   const centre = (line) => line.reduce((sum, i) => sum + points[2 * i], 0) / line.length;
-  for (const [name, line] of Object.entries(CONTOURS)) {
+  const lines = { ...CONTOURS, ...IRISES };
+  for (const [name, line] of Object.entries(lines)) {
     assert.ok(line.every((i) => Number.isInteger(i) && i >= 0 && i < 478), name);
     const inside = line[0] === line.at(-1) ? line.slice(1) : line;
     assert.equal(new Set(inside).size, inside.length, name);
@@ -91,9 +92,9 @@ test('lines lie on landmarks, go to each at most once, and are the mirror images
     });
   }
   for (const part of ['eye', 'brow', 'iris']) {
-    assert.equal(CONTOURS[`${part}Left`].length, CONTOURS[`${part}Right`].length);
-    assert.ok(centre(CONTOURS[`${part}Right`]) < centre(CONTOURS.noseBridge), `${part}: the right one is on the picture's left`);
-    assert.ok(centre(CONTOURS[`${part}Left`]) > centre(CONTOURS.noseBridge), part);
+    assert.equal(lines[`${part}Left`].length, lines[`${part}Right`].length);
+    assert.ok(centre(lines[`${part}Right`]) < centre(lines.noseBridge), `${part}: the right one is on the picture's left`);
+    assert.ok(centre(lines[`${part}Left`]) > centre(lines.noseBridge), part);
   }
 });
 

@@ -12,14 +12,15 @@ export const CONTOURS = {
   eyeLeft: [263, 249, 390, 373, 374, 380, 381, 382, 362, 398, 384, 385, 386, 387, 388, 466, 263],
   browRight: [46, 53, 52, 65, 55, 107, 66, 105, 63, 70, 46],
   browLeft: [276, 283, 282, 295, 285, 336, 296, 334, 293, 300, 276],
-  irisRight: [469, 470, 471, 472, 469],
-  irisLeft: [474, 475, 476, 477, 474],
   noseBridge: [168, 6, 197, 195, 5, 4],
   noseWings: [98, 97, 2, 326, 327],
 };
-const STRONG = new Set(['lipsOuter', 'lipsInner', 'eyeRight', 'eyeLeft', 'irisRight', 'irisLeft']);
-const NO_FACE_MS = 250; // a picture or two without a face is a blink of the tracker
-const SILENCE_MS = 1500;
+// Four points each, on a circle. The mesh network has none.
+export const IRISES = { irisRight: [469, 470, 471, 472], irisLeft: [474, 475, 476, 477] };
+const STRONG = new Set(['lipsOuter', 'lipsInner', 'eyeRight', 'eyeLeft']);
+// By the camera's clock, because a busy browser takes what came at once.
+const NO_FACE_US = 250_000n; // a picture or two without a face is a blink of the tracker
+const SILENCE_US = 1_500_000n;
 
 export class Performer {
   static PICTURES = 30; // a second, asked for
@@ -27,8 +28,7 @@ export class Performer {
   #note;
   #picture = null; // the newest with a face
   #points = null; // where they are drawn: on their way to it
-  #faceAt = -Infinity;
-  #cameAt = -Infinity;
+  #newest = null; // captured_us of the newest, with or without a face
   #every = 40; // ms between pictures
   #before = 0;
   #theme = null; // the colours, and of which theme
@@ -40,33 +40,34 @@ export class Performer {
     new ResizeObserver(() => { this.#stale = true; }).observe(canvas);
   }
 
-  clear() {
-    this.#picture = this.#points = null;
-    this.#faceAt = this.#cameAt = -Infinity;
-    this.#stale = true;
-  }
-
   // A picture as LandmarkCollector gives it.
-  show(picture, now = performance.now()) {
+  show(picture) {
     if (picture.width_px > 0 && picture.height_px > 0) {
       this.#canvas.style.aspectRatio = `${picture.width_px} / ${picture.height_px}`;
     }
-    if (now - this.#cameAt < 500) this.#every += 0.2 * (now - this.#cameAt - this.#every);
-    this.#cameAt = now;
+    const passed = this.#newest === null ? 0n : picture.captured_us - this.#newest;
+    if (passed > 0n && passed < 500_000n) this.#every += 0.2 * (Number(passed) / 1000 - this.#every);
+    this.#newest = picture.captured_us;
     if (picture.points.length === 0) return;
     // A face that was away does not fly in from where it was.
-    const again = now - this.#faceAt > NO_FACE_MS || this.#points?.length !== picture.points.length;
-    if (again) this.#points = Float32Array.from(picture.points);
-    this.#faceAt = now;
+    if (!this.#faceIsThere || this.#points?.length !== picture.points.length) this.#points = Float32Array.from(picture.points);
     this.#picture = picture;
     this.#stale = true;
   }
 
-  // What a line of text says about it; '' while a face is shown. `problem` is why the device sends none.
-  say(live, problem, now = performance.now()) {
-    const text = !live ? 'nothing comes' : now - this.#cameAt > SILENCE_MS ? problem || 'no landmarks come'
-      : now - this.#faceAt > NO_FACE_MS ? 'no face' : '';
+  get #faceIsThere() {
+    const age = this.#picture === null ? -1n : this.#newest - this.#picture.captured_us;
+    return age >= 0n && age <= NO_FACE_US;
+  }
+
+  // What a line of text says about it; '' while a face is shown. `pose` is the newest, or null when there is no line;
+  // `held` says that no more come at present; `problem` why the device sends no landmarks.
+  say(pose, held, problem) {
+    const age = pose && this.#newest !== null ? pose.captured_us - this.#newest : SILENCE_US + 1n;
+    const text = !pose ? 'nothing comes' : age > SILENCE_US || -age > SILENCE_US ? problem || 'no landmarks come'
+      : this.#faceIsThere ? '' : 'no face';
     if (this.#note.textContent !== text) this.#note.textContent = text;
+    this.#canvas.toggleAttribute('data-held', held);
     if (text !== '' && this.#picture) {
       this.#picture = this.#points = null;
       this.#stale = true;
@@ -128,12 +129,20 @@ export class Performer {
     g.globalAlpha = 1;
     g.lineJoin = g.lineCap = 'round';
     for (const [name, line] of Object.entries(CONTOURS)) {
-      // The mesh network has no irises.
-      if (line.some((i) => 2 * i >= this.#points.length)) continue;
       g.strokeStyle = STRONG.has(name) ? this.#theme.strong : this.#theme.fine;
       g.lineWidth = STRONG.has(name) ? 1.4 : 1;
       g.beginPath();
       line.forEach((i, n) => g[n === 0 ? 'moveTo' : 'lineTo'](...at(i)));
+      g.stroke();
+    }
+    g.strokeStyle = this.#theme.strong;
+    g.lineWidth = 1.4;
+    for (const rim of Object.values(IRISES)) {
+      if (2 * rim.at(-1) >= this.#points.length) continue;
+      const mean = (values) => values.reduce((sum, v) => sum + v, 0) / values.length;
+      const [x, y] = [0, 1].map((k) => mean(rim.map((i) => at(i)[k])));
+      g.beginPath();
+      g.arc(x, y, mean(rim.map((i) => Math.hypot(at(i)[0] - x, at(i)[1] - y))), 0, 2 * Math.PI);
       g.stroke();
     }
   }

@@ -103,8 +103,9 @@ function tell() {
     $(id).setAttribute('aria-pressed', String(link.source instanceof Kind));
   }
   link.landmarkRate = $('performer').open ? Performer.PICTURES : 0;
-  performer.say(live, link.landmarksRefused && 'this device sends no landmarks');
-  service.tell(live ? link.status : null);
+  const pose = ['live', 'silent'].includes(link.state) ? link.pose : null;
+  performer.say(pose, !live, link.landmarksRefused && 'this device sends no landmarks');
+  service.tell(link.status, pose);
   if (link.values) values.update(link.values);
   plot.draw(performance.now());
 }

@@ -2,7 +2,7 @@
 
 const STATE_WORDS = ['starting', 'looking for a face', 'following a face', 'holding: the face was just lost', 'easing to neutral',
   'resting at neutral', 'stopped: an emergency stop holds', 'fault: camera or line is gone'];
-const SILENCE_MS = 3500; // it comes once a second
+const SILENCE_US = 3_500_000n; // by the device's clock; it comes once a second
 
 // 75 -> '1 min 15 s': two units at most.
 export function duration(seconds) {
@@ -35,18 +35,13 @@ export function describe(status) {
 // Fills the elements of `root` whose ids begin with 'service-'.
 export class ServiceStatus {
   #elements;
-  #status = null;
-  #cameAt = 0;
 
   constructor(root) { this.#elements = [...root.querySelectorAll('[id^="service-"]')]; }
 
-  // `status` may be null: none has come. What is old is not shown.
-  tell(status, now = performance.now()) {
-    if (status !== this.#status) {
-      this.#status = status;
-      this.#cameAt = now;
-    }
-    const texts = status && now - this.#cameAt <= SILENCE_MS ? describe(status) : {};
+  // The newest of each, or null. What is old beside the poses is not shown.
+  tell(status, pose) {
+    const fresh = status && pose && pose.captured_us - status.now_us <= SILENCE_US;
+    const texts = fresh ? describe(status) : {};
     for (const element of this.#elements) {
       const text = texts[element.id.slice('service-'.length)] ?? '–';
       if (element.textContent !== text) element.textContent = text;
