@@ -5,6 +5,7 @@ import { COMMANDS, RESULTS, STATES, succeeded } from '../decoder/message.js';
 import franck from './franck.bin';
 import { Performer } from './landmarks.js';
 import { Link } from './link.js';
+import { Pace } from './pace.js';
 import { Plot } from './plot.js';
 import { Recording, Serial, Socket } from './sources.js';
 import { ServiceStatus } from './status.js';
@@ -106,12 +107,19 @@ function tell() {
   const pose = ['live', 'silent'].includes(link.state) ? link.pose : null;
   performer.say(pose, !live, link.landmarksRefused && 'this device sends no landmarks');
   service.tell(link.status, pose);
+  $('hint').hidden = link.source !== recording;
+  if (document.hidden) return;
   if (link.values) values.update(link.values);
   plot.draw(performance.now());
 }
 
+const pace = new Pace();
+let frameBefore = performance.now(), drewBefore = false;
 function frame(now) {
   move(now);
+  if (pace.frame(now, now - frameBefore, drewBefore && stale)) resize();
+  frameBefore = now;
+  drewBefore = stale;
   if (stale) {
     studio.render();
     stale = false;
@@ -120,7 +128,7 @@ function frame(now) {
   requestAnimationFrame(frame);
 }
 function resize() {
-  studio.resize(view.clientWidth, view.clientHeight, Math.min(2, window.devicePixelRatio || 1));
+  studio.resize(view.clientWidth, view.clientHeight, pace.scale * Math.min(2, window.devicePixelRatio || 1));
   stale = true;
 }
 new ResizeObserver(resize).observe(view);
@@ -195,9 +203,15 @@ link.onAcknowledgement = ({ id, result }) => {
 
 const themes = window.matchMedia('(prefers-color-scheme: light)');
 const theme = (light) => { document.documentElement.dataset.theme = light ? 'light' : 'dark'; };
-theme(themes.matches);
-themes.onchange = () => theme(themes.matches);
-$('theme').onclick = () => theme(document.documentElement.dataset.theme !== 'light');
+// What was chosen stays; a page opened as a file may have no memory.
+const memory = (use) => { try { return use(localStorage); } catch { return null; } };
+const chosen = memory((m) => m.getItem('theme'));
+theme(chosen ? chosen === 'light' : themes.matches);
+themes.onchange = () => { if (!memory((m) => m.getItem('theme'))) theme(themes.matches); };
+$('theme').onclick = () => {
+  theme(document.documentElement.dataset.theme !== 'light');
+  memory((m) => m.setItem('theme', document.documentElement.dataset.theme));
+};
 
 // --- a page that comes from `facewire serve` follows its line; any other begins with the recording
 
