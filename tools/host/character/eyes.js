@@ -27,12 +27,12 @@ function cap(degrees, columns, bulge) {
 export function eyeball() {
   const rings = [130, 100, 80, 64, 48, 41, 36, 33.4, 32.4, 31.4, 30, 28, 26, 24, 22, 20, 18, 16, 14, 12.6, 11.8, 11, 8, 4, 0.01];
   // The iris lies a little sunk behind the cornea.
-  const geometry = cap(rings, 96, (d) => -0.12 * smooth(33, 22, d));
+  const geometry = cap(rings, 64, (d) => -0.12 * smooth(33, 22, d));
   const colors = new Float32Array(3 * geometry.getAttribute('position').count);
   pointsOf(geometry).forEach(([x, y, z], i) => {
     const dx = x - EYE[0], dy = y - EYE[1];
     const d = Math.atan2(Math.hypot(dx, dy), z - EYE[2]) / DEGREES;
-    const spoke = Math.round((Math.atan2(dy, dx) / (2 * Math.PI) + 1) * 96) % 96;
+    const spoke = Math.round((Math.atan2(dy, dx) / (2 * Math.PI) + 1) * 64) % 64;
     const fibre = 0.72 + 0.28 * noise(spoke) + 0.18 * noise(spoke * 7 + Math.round(d));
     const inIris = [mix(0.11, 0.015, smooth(14, 29, d)), mix(0.5, 0.16, smooth(14, 29, d)), mix(0.52, 0.22, smooth(14, 29, d))].map((c) => c * fibre);
     const white = [0.86, 0.85, 0.82].map((c) => c * (1 - 0.25 * smooth(60, 110, d)));

@@ -94,7 +94,7 @@ export const faceShapes = bothSides({
 
 // The pads on the cheekbones.
 const pad = (offset) => ([x]) => (x > 0 ? offset : [0, 0, 0]);
-const puffed = pad([0.4, -0.15, 0.9]);
+const puffed = pad([0.4, -0.15, 0.6]);
 export const cheekShapes = {
   ...bothSides({ cheekSquint: pad([0, 0.6, 0.25]), mouthSmile: pad([0.12, 0.45, 0.28]) }),
   cheekPuff: (p) => sum(puffed(p), mirror(puffed(mirror(p)))),

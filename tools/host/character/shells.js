@@ -25,15 +25,15 @@ const inMouth = ([x, y]) => {
 const FACE_TO = 66, TEMPLE_TO = 118, JAW_TO = 92;
 const seamOverForehead = (u) => SEAM_Y - GAP - 0.9 * (2 * u - 1) ** 2; // dips to the temples
 
-export const face = () => plate(120, 88, [-FACE_TO, FACE_TO], [() => MOUTH_Y + 0.12 + GAP, seamOverForehead],
+export const face = () => plate(100, 72, [-FACE_TO, FACE_TO], [() => MOUTH_Y + 0.12 + GAP, seamOverForehead],
   { hole: (p) => (p[2] < 0 ? null : inHole(p) ?? inMouth(p)) });
 
-export const jaw = () => plate(120, 40, [-JAW_TO, JAW_TO], [-10.2, MOUTH_Y + 0.12 - GAP], { hole: (p) => (p[2] < 0 ? null : inMouth(p)) });
+export const jaw = () => plate(92, 28, [-JAW_TO, JAW_TO], [-10.2, MOUTH_Y + 0.12 - GAP], { hole: (p) => (p[2] < 0 ? null : inMouth(p)) });
 
 export const temple = () => plate(20, 36, [FACE_TO + 1.4, TEMPLE_TO], [(u) => mix(-3.6, -2.2, u), (u) => SEAM_Y - 0.9 - GAP - 0.1 * u]);
 
 // One half of the skull; the seam over its top is GAP wide on each side.
-export const skull = () => grid(56, 30, (u, v) => {
+export const skull = () => grid(40, 22, (u, v) => {
   const azimuth = mix(0, 180, u);
   const low = SEAM_Y + GAP - 0.9 * Math.min(1, azimuth / FACE_TO) ** 2;
   const y = mix(low, TOP - 0.02, Math.sin((v * Math.PI) / 2));
@@ -109,10 +109,10 @@ export function brow() {
 }
 
 // Bellows, and the rods beside them.
-export const bellows = () => turnedSolid(Array.from({ length: 72 }, (_, i) => {
-  const y = mix(-5.5, -16.1, i / 71);
+export const bellows = () => turnedSolid(Array.from({ length: 88 }, (_, i) => {
+  const y = mix(-5.5, -16.1, i / 87);
   return [3.7 + 0.26 * Math.cos((y * 2 * Math.PI) / 1.05), y];
-}), -3.2);
+}), -3.2, 32);
 export const neckRod = () => tube([[4.7, -15.6, -2.4], [4.7, -13, -2.4], [4.65, -10, -2.6], [4.6, -6, -2.8]], 0.3, { sides: 14 });
 export const collar = () => turnedSolid([[4.0, -15.1], [5.0, -15.2], [5.2, -15.5], [5.2, -16.0], [5.0, -16.3], [4.0, -16.4]], -3.2, 56);
 export const bust = () => turnedSolid([[3.8, -16], [5.0, -16.2], [7.0, -16.6], [9.4, -17.6], [11.2, -19.2], [12.2, -21.2], [12.5, -24.5], [12.1, -25], [0.1, -25]], -3.2, 64);

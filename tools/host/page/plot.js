@@ -3,7 +3,7 @@ const COLOURS = ['#35c7c2', '#d9a066', '#e2747e', '#8fa8ff', '#9acb6b', '#c792e0
 
 // What follows a number of a channel, by its kind.
 export const UNITS = { parameter: '', position_x: ' cm', position_y: ' cm', position_z: ' cm', pitch: '°', yaw: '°', roll: '°' };
-export const numberOf = (value, kind) => value.toFixed(UNITS[kind] === '°' ? 1 : 2) + UNITS[kind];
+export const numberOf = (value, kind) => value.toFixed(UNITS[kind] === '°' ? 1 : 2).replace(/^-(0\.0+)$/, '$1') + UNITS[kind];
 
 // The last ten seconds of some channels, each over its own range; gaps where nothing came.
 export class Plot {
