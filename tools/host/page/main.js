@@ -3,10 +3,12 @@ import { Driver } from '../character/driver.js';
 import { Studio } from '../character/studio.js';
 import { COMMANDS, RESULTS, STATES, succeeded } from '../decoder/message.js';
 import franck from './franck.bin';
+import { Performer } from './landmarks.js';
 import { Link } from './link.js';
 import { Pace } from './pace.js';
 import { Plot } from './plot.js';
 import { Recording, Serial, Socket } from './sources.js';
+import { ServiceStatus } from './status.js';
 import { Values } from './values.js';
 
 // The page: one link, one character, and what is to be seen of both.
@@ -19,6 +21,8 @@ studio.scene.add(otto.root);
 const link = new Link();
 const values = new Values($('values'));
 const plot = new Plot($('plot'), $('legend'));
+const performer = new Performer($('landmarks'), $('performer-note'));
+const service = new ServiceStatus($('service'));
 const recording = new Recording(franck);
 
 let driver = null;
@@ -36,6 +40,7 @@ link.onRig = (rig) => {
   choosePlotted();
 };
 link.onPose = (pose, now) => plot.add(performance.now(), now);
+link.onLandmarks = (picture) => performer.show(picture);
 function choosePlotted() {
   if (link.rig) plot.choose(link.rig.channels, values.plotted);
 }
@@ -98,6 +103,10 @@ function tell() {
   for (const [id, Kind] of [['play', Recording], ['serial', Serial], ['socket', Socket]]) {
     $(id).setAttribute('aria-pressed', String(link.source instanceof Kind));
   }
+  link.landmarkRate = $('performer').open ? Performer.PICTURES : 0;
+  const pose = ['live', 'silent'].includes(link.state) ? link.pose : null;
+  performer.say(pose, !live, link.landmarksRefused && 'this device sends no landmarks');
+  service.tell(link.status, pose);
   $('hint').hidden = link.source !== recording;
   if (document.hidden) return;
   if (link.values) values.update(link.values);
@@ -115,6 +124,7 @@ function frame(now) {
     studio.render();
     stale = false;
   }
+  performer.draw(now);
   requestAnimationFrame(frame);
 }
 function resize() {
