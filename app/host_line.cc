@@ -12,9 +12,18 @@ using std::chrono::milliseconds;
 // At most so many parts of the description ride on one tick: on a slow line the poses come first.
 constexpr int kPartsPerTick = 4;
 
+static_assert(wire::kMaxFrameBytes >= wire::osc::MaxSlipBytes(wire::osc_host::kMaxPacketBytes));
+
 }  // namespace
 
+HostLine::HostLine(hal::SerialPort* port, hal::Clock& clock, milliseconds budget,
+                   HostProtocol protocol, int baud) noexcept
+    : port_(port), clock_(clock), budget_(budget) {
+  if (protocol == HostProtocol::kOsc) speech_.emplace<OscSpeech>(baud);
+}
+
 void HostLine::SetRig(const Rig& rig, std::uint32_t rig_id) noexcept {
+  std::visit([&](auto& speech) { speech.SetRig(rig); }, speech_);
   rig_ = &rig;
   rig_id_ = rig_id;
   next_part_ = 0;
@@ -35,6 +44,7 @@ Result<> HostLine::Open() noexcept {
   reopen_.Succeeded();
   open_ = true;
   taken_ = clock_.Now();
+  std::visit([](auto& speech) { speech.LineOpened(); }, speech_);
   out_begin_ = out_end_ = 0;
   unread_ = {};
   next_part_ = 0;
@@ -62,9 +72,9 @@ std::optional<wire::Command> HostLine::NextCommand() noexcept {
       }
       unread_ = std::span(in_).first(*read);
     }
-    const auto received = decoder_.Next(unread_);
-    if (!received) continue;  // damage is counted by the decoder, more bytes are read above
-    if (const auto* command = std::get_if<wire::Command>(&received->message)) return *command;
+    const auto command =
+        std::visit([this](auto& speech) { return speech.NextCommand(unread_); }, speech_);
+    if (command) return *command;  // else damage was counted, and more bytes are read above
   }
   return std::nullopt;
 }
@@ -77,7 +87,9 @@ void HostLine::Acknowledge(const wire::Acknowledgement& answer) noexcept {
 bool HostLine::Send(const wire::Pose& pose, const wire::Status* status) noexcept {
   if (port_ == nullptr) return false;
   if (!open_ && !(reopen_.Due(clock_.Now()) && Open())) return false;
-  const Time deadline = clock_.Now() + budget_;
+  const Time now = clock_.Now();
+  const Time deadline = now + budget_;
+  std::visit([now](auto& speech) { speech.BeginTick(now); }, speech_);
   if (Flush(deadline)) SendAcknowledgements(deadline);
   if (!SendPose(pose, deadline)) {
     ++counters_.poses_dropped;
@@ -89,12 +101,23 @@ bool HostLine::Send(const wire::Pose& pose, const wire::Status* status) noexcept
 }
 
 bool HostLine::SendPose(const wire::Pose& pose, Time deadline) noexcept {
-  if (!Frame(pose)) return false;
-  const std::size_t untouched = out_end_ - out_begin_;
-  if (Flush(deadline)) return true;
-  // Nothing of it has left: the next tick has a newer one. The gap in the numbers tells the host.
-  if (out_end_ - out_begin_ == untouched) out_begin_ = out_end_ = 0;
-  return false;
+  if (out_end_ != out_begin_) return false;
+  return std::visit(
+      [&](auto& speech) {
+        if (!speech.BeginPose(pose)) return false;
+        for (;;) {
+          const auto frame = speech.NextOfPose(out_);
+          if (!frame) return frame.error() == Errc::kEnd;
+          if (!Hold(frame)) return false;
+          const std::size_t untouched = out_end_ - out_begin_;
+          if (Flush(deadline)) continue;
+          // Nothing of it has left: the next tick has a newer one. The gap in the numbers tells the
+          // host.
+          if (out_end_ - out_begin_ == untouched) out_begin_ = out_end_ = 0;
+          return false;
+        }
+      },
+      speech_);
 }
 
 void HostLine::SendAcknowledgements(Time deadline) noexcept {
@@ -112,7 +135,7 @@ void HostLine::SendDescription(Time deadline) noexcept {
     if (!part || !Frame(*part)) return;
     next_part_ = (next_part_ + 1) % parts;
     --parts_left_;
-    if (!Flush(deadline)) return;
+    if (!Flush(deadline) || !HasRoom()) return;
   }
 }
 
@@ -121,11 +144,23 @@ void HostLine::SendDescription(Time deadline) noexcept {
 template <class Message>
 bool HostLine::Frame(const Message& message) noexcept {
   if (!open_ || out_end_ != out_begin_) return false;
-  const auto frame = encoder_.Encode(message, out_);
-  if (!frame) return false;
+  return Hold(std::visit([&](auto& speech) { return speech.Encode(message, out_); }, speech_));
+}
+
+bool HostLine::Hold(Result<std::span<const std::byte>> frame) noexcept {
+  if (!open_ || !frame) return false;
   out_begin_ = static_cast<std::size_t>(frame->data() - out_.data());
   out_end_ = out_begin_ + frame->size();
   return true;
+}
+
+bool HostLine::HasRoom() const noexcept {
+  return std::visit([](const auto& speech) { return speech.HasRoom(); }, speech_);
+}
+
+const wire::LinkStats& HostLine::received() const noexcept {
+  return std::visit([](const auto& speech) -> const wire::LinkStats& { return speech.received(); },
+                    speech_);
 }
 
 Duration HostLine::TakesNothingFor() const noexcept {
