@@ -62,10 +62,10 @@ def of_unity(q):
 
 
 def of_unreal(yaw, pitch, roll):
-    """The same for Live Link's half turns: Unreal's rotation matrix, which has vectors as rows, and
+    """The same for Live Link's radians: Unreal's rotation matrix, which has vectors as rows, and
     Epic's axes (-z, x, y)."""
-    p, y, r = pitch * math.pi, yaw * math.pi, roll * math.pi
-    sp, cp, sy, cy, sr, cr = math.sin(p), math.cos(p), math.sin(y), math.cos(y), math.sin(r), math.cos(r)
+    sp, cp, sy, cy = math.sin(pitch), math.cos(pitch), math.sin(yaw), math.cos(yaw)
+    sr, cr = math.sin(roll), math.cos(roll)
     rows = [[cp * cy, cp * sy, sp],
             [sr * sp * cy - cr * sy, sr * sp * sy + cr * cy, -sr * cp],
             [-(cr * sp * cy + sr * sy), cy * sr - cr * sp * sy, cr * cp]]
