@@ -48,6 +48,8 @@ Result<> HostLine::Open() noexcept {
   out_begin_ = out_end_ = 0;
   unread_ = {};
   next_part_ = 0;
+  landmarks_ = {};
+  room_.Forget();
   Describe();
   ++counters_.opens;
   return {};
@@ -84,12 +86,17 @@ void HostLine::Acknowledge(const wire::Acknowledgement& answer) noexcept {
   (void)answers_.try_push(answer);
 }
 
+bool HostLine::AskLandmarks(float pictures_a_second) noexcept {
+  return landmarks_.Ask(pictures_a_second, clock_.Now());
+}
+
 bool HostLine::Send(const wire::Pose& pose, const wire::Status* status) noexcept {
   if (port_ == nullptr) return false;
   if (!open_ && !(reopen_.Due(clock_.Now()) && Open())) return false;
   const Time now = clock_.Now();
   const Time deadline = now + budget_;
   std::visit([now](auto& speech) { speech.BeginTick(now); }, speech_);
+  MeasureRoom();
   if (Flush(deadline)) SendAcknowledgements(deadline);
   if (!SendPose(pose, deadline)) {
     ++counters_.poses_dropped;
@@ -97,6 +104,7 @@ bool HostLine::Send(const wire::Pose& pose, const wire::Status* status) noexcept
   }
   ++counters_.poses;
   if (status == nullptr || (Frame(*status) && Flush(deadline))) SendDescription(deadline);
+  SendLandmarks();
   return true;
 }
 
@@ -108,13 +116,7 @@ bool HostLine::SendPose(const wire::Pose& pose, Time deadline) noexcept {
         for (;;) {
           const auto frame = speech.NextOfPose(out_);
           if (!frame) return frame.error() == Errc::kEnd;
-          if (!Hold(frame)) return false;
-          const std::size_t untouched = out_end_ - out_begin_;
-          if (Flush(deadline)) continue;
-          // Nothing of it has left: the next tick has a newer one. The gap in the numbers tells the
-          // host.
-          if (out_end_ - out_begin_ == untouched) out_begin_ = out_end_ = 0;
-          return false;
+          if (!Hold(frame) || !FlushOrDrop(deadline)) return false;
         }
       },
       speech_);
@@ -136,6 +138,26 @@ void HostLine::SendDescription(Time deadline) noexcept {
     next_part_ = (next_part_ + 1) % parts;
     --parts_left_;
     if (!Flush(deadline) || !HasRoom()) return;
+  }
+}
+
+// What the line has done with the bytes since the last pose.
+void HostLine::MeasureRoom() noexcept {
+  const auto bytes = static_cast<std::size_t>(counters_.bytes - bytes_at_pose_);
+  bytes_at_pose_ = counters_.bytes;
+  if (!landmarks_asked()) return;
+  room_.Measure(out_begin_ == out_end_ && port_->Unsent() == 0, bytes, clock_.Now());
+}
+
+void HostLine::SendLandmarks() noexcept {
+  if (!landmarks_asked() || parts_left_ > 0) return;
+  for (;;) {
+    const auto with_part = counters_.bytes - bytes_at_pose_ + wire::kLandmarkPartFrameBytes;
+    const std::optional<wire::LandmarkPart> part = landmarks_.part();
+    if (!part || !room_.Has(static_cast<std::size_t>(with_part)) || !Frame(*part)) return;
+    const bool sent = FlushOrDrop(clock_.Now());
+    if (sent || out_begin_ != out_end_) landmarks_.Next();
+    if (!sent) return;
   }
 }
 
@@ -165,6 +187,15 @@ const wire::LinkStats& HostLine::received() const noexcept {
 
 Duration HostLine::TakesNothingFor() const noexcept {
   return open_ ? clock_.Now() - taken_ : Duration{};
+}
+
+// As Flush. A frame of which nothing has left is dropped: the next tick has a newer one. The gap in
+// the numbers tells the host.
+bool HostLine::FlushOrDrop(Time deadline) noexcept {
+  const std::size_t untouched = out_end_ - out_begin_;
+  if (Flush(deadline)) return true;
+  if (out_end_ - out_begin_ == untouched) out_begin_ = out_end_ = 0;
+  return false;
 }
 
 // Hands over what the buffer holds. True when it is empty afterwards.

@@ -11,6 +11,7 @@
 
 #include "app/backoff.h"
 #include "app/host_protocol.h"
+#include "app/landmark_feed.h"
 #include "app/speech.h"
 #include "core/base/inline_vector.h"
 #include "core/rig/rig.h"
@@ -32,7 +33,8 @@ struct HostLineCounters {
 // The service's end of the line to the host: frames out, commands in. Never waits longer than the
 // budget of a tick, never allocates (opening aside). What is sent first: the rest of a frame that
 // the line took in part (a receiver must not see half a frame), acknowledgements, the pose, the
-// status, and of the rig's description as much as the line still takes.
+// status, of the rig's description as much as the line still takes, and in what room is left then,
+// without waiting, landmarks for a host that asked.
 class HostLine {
  public:
   // `port` may be null: nothing is sent, and nothing is ever missing. All are borrowed. `baud` is
@@ -54,6 +56,12 @@ class HostLine {
   // Queues the answer; it leaves with the next Send.
   void Acknowledge(const wire::Acknowledgement& answer) noexcept;
 
+  // As LandmarkFeed. The host that asked gets what is offered before a Send with that Send and
+  // those that follow, as the line has room; after a lost line it must ask again.
+  bool AskLandmarks(float pictures_a_second) noexcept;
+  bool landmarks_asked() const noexcept { return landmarks_.asked(clock_.Now()); }
+  void OfferLandmarks(const Landmarks& newest) noexcept { landmarks_.Offer(newest); }
+
   // One tick: reopens a lost line when it is time, then sends. `status` may be null: not due.
   // True when the pose was handed over completely.
   bool Send(const wire::Pose& pose, const wire::Status* status) noexcept;
@@ -72,10 +80,13 @@ class HostLine {
   bool Frame(const Message& message) noexcept;
   bool Hold(Result<std::span<const std::byte>> frame) noexcept;
   bool Flush(Time deadline) noexcept;
+  bool FlushOrDrop(Time deadline) noexcept;
   bool HasRoom() const noexcept;
   bool SendPose(const wire::Pose& pose, Time deadline) noexcept;
   void SendAcknowledgements(Time deadline) noexcept;
   void SendDescription(Time deadline) noexcept;
+  void SendLandmarks() noexcept;
+  void MeasureRoom() noexcept;
   void Lose(Errc why) noexcept;
 
   hal::SerialPort* port_;
@@ -89,6 +100,10 @@ class HostLine {
   std::uint32_t rig_id_ = 0;
   std::size_t next_part_ = 0;   // of the description
   std::size_t parts_left_ = 0;  // of it, to be sent
+
+  LandmarkFeed landmarks_;
+  SpareRoom room_;
+  std::uint64_t bytes_at_pose_ = 0;  // of counters_, before the last pose
 
   std::variant<NativeSpeech, OscSpeech> speech_;
   std::array<std::byte, wire::kMaxFrameBytes> out_{};

@@ -382,6 +382,7 @@ std::vector<Vector> AllVectors() {
   AddDamage(all);
   AddBadLine(all);
   AddServos(all);
+  AddLandmarks(all);
   return all;
 }
 
