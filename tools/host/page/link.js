@@ -2,6 +2,7 @@ import { Decoder } from '../decoder/decoder.js';
 import { Encoder } from '../decoder/encoder.js';
 import { COMMANDS } from '../decoder/message.js';
 import { RigCollector, valuesOf } from '../decoder/rig.js';
+import { OscSpotter, SPEAKS_OSC } from './other_protocol.js';
 
 export const SILENCE_MS = 500; // without a sound pose the device or the line is gone (core/wire/README.md)
 const RETRY_MS = [500, 1000, 2000, 4000];
@@ -29,6 +30,7 @@ export class Link {
   #generation = 0; // of the source's callbacks: those of an earlier opening are deaf
   #decoder = new Decoder();
   #encoder = new Encoder();
+  #osc = new OscSpotter();
   #collector = new RigCollector();
   #earlier = { damaged: 0, lost: 0 }; // of decoders before this one
   #clock;
@@ -134,6 +136,7 @@ export class Link {
   }
 
   #newStream() {
+    this.#osc = new OscSpotter();
     this.#earlier.damaged += this.#decoder.damaged;
     this.#earlier.lost += this.#decoder.stats.lost;
     this.#decoder = new Decoder();
@@ -150,6 +153,7 @@ export class Link {
   }
 
   #take(bytes) {
+    if (this.state === 'waiting' && !this.rig && this.#osc.notices(bytes)) this.problem = SPEAKS_OSC;
     for (const message of this.#decoder.push(bytes)) {
       if (message.type === 'pose') this.#takePose(message);
       else if (message.type === 'status') this.status = message;
@@ -161,6 +165,7 @@ export class Link {
   #takeRig() {
     if (!this.#collector.complete || this.rig?.rig_id === this.#collector.rigId) return;
     this.rig = this.#collector.rig;
+    this.problem = '';
     this.values = null;
     this.onRig(this.rig);
   }

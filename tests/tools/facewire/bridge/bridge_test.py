@@ -280,6 +280,15 @@ class Program(Checks):
         for number in range(10 if receiver else 0):
             self.near(receiver.frame()["values"]["JawOpen"], number / 10, 1e-4, "jawOpen")
 
+    def test_a_line_that_speaks_osc_is_named_once(self):
+        bundle = b"\xc0#bundle\0" + bytes(7) + b"\1" + b"\xc0"
+        with tempfile.NamedTemporaryFile(prefix="bridge_test.") as file:
+            file.write(b"noise" + bundle * 20)
+            file.flush()
+            done = subprocess.run([FACEWIRE, "bridge", file.name, "--vmc", "127.0.0.1:9"], capture_output=True, text=True)
+        self.assertEqual(done.stdout.count("this line speaks OSC; for this program set [host] protocol = \"native\""), 1)
+        self.assertEqual(done.returncode, 2)
+
     def test_a_receiver_that_is_not_there_yet_is_no_error(self):
         bridge = Bridge(self, full_rig(), host="localhost")
         bridge.livelink.socket.close()
