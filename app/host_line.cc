@@ -18,12 +18,16 @@ static_assert(wire::kMaxFrameBytes >= wire::osc::MaxSlipBytes(wire::osc_host::kM
 
 HostLine::HostLine(hal::SerialPort* port, hal::Clock& clock, milliseconds budget,
                    HostProtocol protocol, int baud) noexcept
-    : port_(port), clock_(clock), budget_(budget) {
-  if (protocol == HostProtocol::kOsc) speech_.emplace<OscSpeech>(baud);
+    : port_(port), clock_(clock), budget_(budget), protocol_(protocol), osc_(baud) {}
+
+// What `use` does with the speech that this line has.
+template <class Use>
+decltype(auto) HostLine::WithSpeech(Use use) noexcept {
+  return protocol_ == HostProtocol::kOsc ? use(osc_) : use(native_);
 }
 
 void HostLine::SetRig(const Rig& rig, std::uint32_t rig_id) noexcept {
-  std::visit([&](auto& speech) { speech.SetRig(rig); }, speech_);
+  WithSpeech([&](auto& speech) { speech.SetRig(rig); });
   rig_ = &rig;
   rig_id_ = rig_id;
   next_part_ = 0;
@@ -44,7 +48,7 @@ Result<> HostLine::Open() noexcept {
   reopen_.Succeeded();
   open_ = true;
   taken_ = clock_.Now();
-  std::visit([](auto& speech) { speech.LineOpened(); }, speech_);
+  WithSpeech([](auto& speech) { speech.LineOpened(); });
   out_begin_ = out_end_ = 0;
   unread_ = {};
   next_part_ = 0;
@@ -74,8 +78,7 @@ std::optional<wire::Command> HostLine::NextCommand() noexcept {
       }
       unread_ = std::span(in_).first(*read);
     }
-    const auto command =
-        std::visit([this](auto& speech) { return speech.NextCommand(unread_); }, speech_);
+    const auto command = WithSpeech([this](auto& speech) { return speech.NextCommand(unread_); });
     if (command) return *command;  // else damage was counted, and more bytes are read above
   }
   return std::nullopt;
@@ -95,7 +98,7 @@ bool HostLine::Send(const wire::Pose& pose, const wire::Status* status) noexcept
   if (!open_ && !(reopen_.Due(clock_.Now()) && Open())) return false;
   const Time now = clock_.Now();
   const Time deadline = now + budget_;
-  std::visit([now](auto& speech) { speech.BeginTick(now); }, speech_);
+  WithSpeech([now](auto& speech) { speech.BeginTick(now); });
   MeasureRoom();
   if (Flush(deadline)) SendAcknowledgements(deadline);
   if (!SendPose(pose, deadline)) {
@@ -110,16 +113,14 @@ bool HostLine::Send(const wire::Pose& pose, const wire::Status* status) noexcept
 
 bool HostLine::SendPose(const wire::Pose& pose, Time deadline) noexcept {
   if (out_end_ != out_begin_) return false;
-  return std::visit(
-      [&](auto& speech) {
-        if (!speech.BeginPose(pose)) return false;
-        for (;;) {
-          const auto frame = speech.NextOfPose(out_);
-          if (!frame) return frame.error() == Errc::kEnd;
-          if (!Hold(frame) || !FlushOrDrop(deadline)) return false;
-        }
-      },
-      speech_);
+  return WithSpeech([&](auto& speech) {
+    if (!speech.BeginPose(pose)) return false;
+    for (;;) {
+      const auto frame = speech.NextOfPose(out_);
+      if (!frame) return frame.error() == Errc::kEnd;
+      if (!Hold(frame) || !FlushOrDrop(deadline)) return false;
+    }
+  });
 }
 
 void HostLine::SendAcknowledgements(Time deadline) noexcept {
@@ -166,7 +167,7 @@ void HostLine::SendLandmarks() noexcept {
 template <class Message>
 bool HostLine::Frame(const Message& message) noexcept {
   if (!open_ || out_end_ != out_begin_) return false;
-  return Hold(std::visit([&](auto& speech) { return speech.Encode(message, out_); }, speech_));
+  return Hold(WithSpeech([&](auto& speech) { return speech.Encode(message, out_); }));
 }
 
 bool HostLine::Hold(Result<std::span<const std::byte>> frame) noexcept {
@@ -177,12 +178,11 @@ bool HostLine::Hold(Result<std::span<const std::byte>> frame) noexcept {
 }
 
 bool HostLine::HasRoom() const noexcept {
-  return std::visit([](const auto& speech) { return speech.HasRoom(); }, speech_);
+  return protocol_ == HostProtocol::kOsc ? osc_.HasRoom() : native_.HasRoom();
 }
 
 const wire::LinkStats& HostLine::received() const noexcept {
-  return std::visit([](const auto& speech) -> const wire::LinkStats& { return speech.received(); },
-                    speech_);
+  return protocol_ == HostProtocol::kOsc ? osc_.received() : native_.received();
 }
 
 Duration HostLine::TakesNothingFor() const noexcept {

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <variant>
 
 #include "app/backoff.h"
 #include "app/host_protocol.h"
@@ -76,6 +75,8 @@ class HostLine {
   const wire::LinkStats& received() const noexcept;
 
  private:
+  template <class Use>
+  decltype(auto) WithSpeech(Use use) noexcept;
   template <class Message>
   bool Frame(const Message& message) noexcept;
   bool Hold(Result<std::span<const std::byte>> frame) noexcept;
@@ -105,7 +106,9 @@ class HostLine {
   SpareRoom room_;
   std::uint64_t bytes_at_pose_ = 0;  // of counters_, before the last pose
 
-  std::variant<NativeSpeech, OscSpeech> speech_;
+  HostProtocol protocol_;
+  NativeSpeech native_;
+  OscSpeech osc_;
   std::array<std::byte, wire::kMaxFrameBytes> out_{};
   std::size_t out_begin_ = 0;  // of what is still to be sent of out_
   std::size_t out_end_ = 0;

@@ -28,9 +28,9 @@ std::optional<std::string_view> TakeString(std::span<const std::byte>& bytes) no
   const std::size_t padded = (size / 4 + 1) * 4;
   if (padded > text.size()) return std::nullopt;
   const auto is_nul = [](char c) { return c == '\0'; };
-  if (!std::ranges::all_of(text.substr(size, padded - size), is_nul)) return std::nullopt;
+  if (!std::all_of(text.begin() + size, text.begin() + padded, is_nul)) return std::nullopt;
   bytes = bytes.subspan(padded);
-  return text.substr(0, size);
+  return std::string_view(text.data(), size);
 }
 
 // Takes the argument of that type off the front.
@@ -79,7 +79,8 @@ Result<MessageView> MessageOf(std::span<const std::byte> bytes) noexcept {
   const auto types = TakeString(bytes);
   if (!types || !types->starts_with(',')) return Errc::kCorrupt;
   message.address = *address;
-  message.types = types->substr(1);
+  message.types = *types;
+  message.types.remove_prefix(1);  // the comma
   message.arguments = bytes;
   for (char type : message.types) {
     if (const Result<> skipped = Skip(type, bytes); !skipped) return skipped.error();

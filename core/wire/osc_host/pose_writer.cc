@@ -40,7 +40,7 @@ void PoseWriter::Plan() noexcept {
   std::bitset<kMaxChannels> has;
   for (std::size_t i = 0; i < in_turn; ++i) {
     const std::size_t channel = (turn_ + i) % count;
-    has.set(channel);
+    has[channel] = true;
     plan_[planned_++] = static_cast<std::uint8_t>(channel);
   }
   for (std::size_t channel = 0; channel < count; ++channel) {
@@ -60,7 +60,7 @@ Result<std::span<const std::byte>> PoseWriter::Next(std::span<std::byte> out) no
   for (; taken_ < at_; ++taken_) {
     const std::size_t channel = plan_[taken_];
     sent_[channel] = pose_->values[channel];
-    known_.set(channel);
+    known_[channel] = true;
     // The turn goes on from the last that got it.
     if (taken_ < kInTurn) turn_ = (channel + 1) % rig_->channels.size();
   }
