@@ -12,9 +12,22 @@ using std::chrono::milliseconds;
 // At most so many parts of the description ride on one tick: on a slow line the poses come first.
 constexpr int kPartsPerTick = 4;
 
+static_assert(wire::kMaxFrameBytes >= wire::osc::MaxSlipBytes(wire::osc_host::kMaxPacketBytes));
+
 }  // namespace
 
+HostLine::HostLine(hal::SerialPort* port, hal::Clock& clock, milliseconds budget,
+                   HostProtocol protocol, int baud) noexcept
+    : port_(port), clock_(clock), budget_(budget), protocol_(protocol), osc_(baud) {}
+
+// What `use` does with the speech that this line has.
+template <class Use>
+decltype(auto) HostLine::WithSpeech(Use use) noexcept {
+  return protocol_ == HostProtocol::kOsc ? use(osc_) : use(native_);
+}
+
 void HostLine::SetRig(const Rig& rig, std::uint32_t rig_id) noexcept {
+  WithSpeech([&](auto& speech) { speech.SetRig(rig); });
   rig_ = &rig;
   rig_id_ = rig_id;
   next_part_ = 0;
@@ -35,6 +48,7 @@ Result<> HostLine::Open() noexcept {
   reopen_.Succeeded();
   open_ = true;
   taken_ = clock_.Now();
+  WithSpeech([](auto& speech) { speech.LineOpened(); });
   out_begin_ = out_end_ = 0;
   unread_ = {};
   next_part_ = 0;
@@ -64,9 +78,8 @@ std::optional<wire::Command> HostLine::NextCommand() noexcept {
       }
       unread_ = std::span(in_).first(*read);
     }
-    const auto received = decoder_.Next(unread_);
-    if (!received) continue;  // damage is counted by the decoder, more bytes are read above
-    if (const auto* command = std::get_if<wire::Command>(&received->message)) return *command;
+    const auto command = WithSpeech([this](auto& speech) { return speech.NextCommand(unread_); });
+    if (command) return *command;  // else damage was counted, and more bytes are read above
   }
   return std::nullopt;
 }
@@ -83,7 +96,9 @@ bool HostLine::AskLandmarks(float pictures_a_second) noexcept {
 bool HostLine::Send(const wire::Pose& pose, const wire::Status* status) noexcept {
   if (port_ == nullptr) return false;
   if (!open_ && !(reopen_.Due(clock_.Now()) && Open())) return false;
-  const Time deadline = clock_.Now() + budget_;
+  const Time now = clock_.Now();
+  const Time deadline = now + budget_;
+  WithSpeech([now](auto& speech) { speech.BeginTick(now); });
   MeasureRoom();
   if (Flush(deadline)) SendAcknowledgements(deadline);
   if (!SendPose(pose, deadline)) {
@@ -97,7 +112,15 @@ bool HostLine::Send(const wire::Pose& pose, const wire::Status* status) noexcept
 }
 
 bool HostLine::SendPose(const wire::Pose& pose, Time deadline) noexcept {
-  return Frame(pose) && FlushOrDrop(deadline);
+  if (out_end_ != out_begin_) return false;
+  return WithSpeech([&](auto& speech) {
+    if (!speech.BeginPose(pose)) return false;
+    for (;;) {
+      const auto frame = speech.NextOfPose(out_);
+      if (!frame) return frame.error() == Errc::kEnd;
+      if (!Hold(frame) || !FlushOrDrop(deadline)) return false;
+    }
+  });
 }
 
 void HostLine::SendAcknowledgements(Time deadline) noexcept {
@@ -115,7 +138,7 @@ void HostLine::SendDescription(Time deadline) noexcept {
     if (!part || !Frame(*part)) return;
     next_part_ = (next_part_ + 1) % parts;
     --parts_left_;
-    if (!Flush(deadline)) return;
+    if (!Flush(deadline) || !HasRoom()) return;
   }
 }
 
@@ -144,11 +167,22 @@ void HostLine::SendLandmarks() noexcept {
 template <class Message>
 bool HostLine::Frame(const Message& message) noexcept {
   if (!open_ || out_end_ != out_begin_) return false;
-  const auto frame = encoder_.Encode(message, out_);
-  if (!frame) return false;
+  return Hold(WithSpeech([&](auto& speech) { return speech.Encode(message, out_); }));
+}
+
+bool HostLine::Hold(Result<std::span<const std::byte>> frame) noexcept {
+  if (!open_ || !frame) return false;
   out_begin_ = static_cast<std::size_t>(frame->data() - out_.data());
   out_end_ = out_begin_ + frame->size();
   return true;
+}
+
+bool HostLine::HasRoom() const noexcept {
+  return protocol_ == HostProtocol::kOsc ? osc_.HasRoom() : native_.HasRoom();
+}
+
+const wire::LinkStats& HostLine::received() const noexcept {
+  return protocol_ == HostProtocol::kOsc ? osc_.received() : native_.received();
 }
 
 Duration HostLine::TakesNothingFor() const noexcept {

@@ -6,13 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "app/backoff.h"
+#include "app/host_protocol.h"
 #include "app/landmark_feed.h"
+#include "app/speech.h"
 #include "core/base/inline_vector.h"
 #include "core/rig/rig.h"
-#include "core/wire/decoder.h"
-#include "core/wire/encoder.h"
 #include "core/wire/message.h"
 #include "hal/clock.h"
 #include "hal/serial_port.h"
@@ -35,9 +36,10 @@ struct HostLineCounters {
 // without waiting, landmarks for a host that asked.
 class HostLine {
  public:
-  // `port` may be null: nothing is sent, and nothing is ever missing. All are borrowed.
-  HostLine(hal::SerialPort* port, hal::Clock& clock, std::chrono::milliseconds budget) noexcept
-      : port_(port), clock_(clock), budget_(budget) {}
+  // `port` may be null: nothing is sent, and nothing is ever missing. All are borrowed. `baud` is
+  // what OSC fits itself to; the native protocol does not need to know.
+  HostLine(hal::SerialPort* port, hal::Clock& clock, std::chrono::milliseconds budget,
+           HostProtocol protocol = HostProtocol::kNative, int baud = 115200) noexcept;
 
   // The rig that poses belong to; borrowed until the next call. Its description is sent at once.
   void SetRig(const Rig& rig, std::uint32_t rig_id) noexcept;
@@ -70,13 +72,17 @@ class HostLine {
   // For how long an open line has taken no byte (every tick has a pose for it); zero while closed.
   Duration TakesNothingFor() const noexcept;
   const HostLineCounters& counters() const noexcept { return counters_; }
-  const wire::LinkStats& received() const noexcept { return decoder_.stats(); }
+  const wire::LinkStats& received() const noexcept;
 
  private:
+  template <class Use>
+  decltype(auto) WithSpeech(Use use) noexcept;
   template <class Message>
   bool Frame(const Message& message) noexcept;
+  bool Hold(Result<std::span<const std::byte>> frame) noexcept;
   bool Flush(Time deadline) noexcept;
   bool FlushOrDrop(Time deadline) noexcept;
+  bool HasRoom() const noexcept;
   bool SendPose(const wire::Pose& pose, Time deadline) noexcept;
   void SendAcknowledgements(Time deadline) noexcept;
   void SendDescription(Time deadline) noexcept;
@@ -100,12 +106,13 @@ class HostLine {
   SpareRoom room_;
   std::uint64_t bytes_at_pose_ = 0;  // of counters_, before the last pose
 
-  wire::Encoder encoder_;
+  HostProtocol protocol_;
+  NativeSpeech native_;
+  OscSpeech osc_;
   std::array<std::byte, wire::kMaxFrameBytes> out_{};
   std::size_t out_begin_ = 0;  // of what is still to be sent of out_
   std::size_t out_end_ = 0;
 
-  wire::Decoder decoder_;
   std::array<std::byte, 512> in_{};
   std::span<const std::byte> unread_;  // part of in_
   InlineVector<wire::Acknowledgement, 16> answers_;

@@ -15,6 +15,7 @@
 #include "tools/facewire/commands.h"
 #include "tools/facewire/line_server.h"
 #include "tools/facewire/listen_address.h"
+#include "tools/facewire/other_protocol.h"
 #include "tools/facewire/servo/search.h"
 #include "tools/facewire/stop_flag.h"
 
@@ -65,7 +66,7 @@ class Line {
   std::span<const std::byte> Read() {
     if (!open_ && !Reopen()) return {};
     const auto read = port_->Read(buffer_, kReadFor);
-    if (read) return std::span(buffer_).first(*read);
+    if (read) return Noticed(std::span(buffer_).first(*read));
     if (read.error() != Errc::kTimeout) Lost();
     return {};
   }
@@ -79,6 +80,12 @@ class Line {
     open_ = false;
     port_->Close();
     std::fprintf(stderr, "facewire: %s is gone, waiting for it\n", name_.c_str());
+  }
+  std::span<const std::byte> Noticed(std::span<const std::byte> bytes) {
+    if (osc_.Notices(bytes, 0)) {
+      std::fprintf(stderr, "facewire: %s: %s\n", name_.c_str(), kSpeaksOsc);
+    }
+    return bytes;
   }
   bool Reopen() {
     const Time now = clock_.Now();
@@ -99,6 +106,7 @@ class Line {
   std::unique_ptr<hal::SerialPort> port_;
   hal::SystemClock clock_;
   app::Backoff backoff_;
+  OscSpotter osc_;
   bool open_ = true;
   std::array<std::byte, 4096> buffer_{};
 };

@@ -67,6 +67,20 @@ test('a link asks for the rig until it is there, and then follows poses', async 
   assert.ok(!line.codes().includes(COMMANDS.describe_rig));
 });
 
+test('a line that speaks OSC is named, until it speaks the native protocol', async () => {
+  const { link, line } = await context();
+  const bundle = [0xc0, ...new TextEncoder().encode('#bundle\0'), 0, 0, 0, 0, 0, 0, 0, 1, 0xc0];
+  line.to.bytes(Uint8Array.from([...bundle, ...bundle].slice(1)));
+  assert.equal(link.problem, '');
+  const more = Uint8Array.from([...bundle, ...bundle]);
+  line.to.bytes(more.slice(0, 4)); // cut anywhere
+  line.to.bytes(more.slice(4));
+  assert.match(link.problem, /speaks OSC; .* protocol = "native"/);
+  assert.equal(link.state, 'waiting');
+  line.to.bytes(franck);
+  assert.equal(link.problem, '');
+});
+
 test('without poses a link is silent, and live again with the next', async () => {
   const { link, line, pass } = await context();
   line.to.bytes(franck.subarray(0, 90000));

@@ -3,6 +3,7 @@ import { Encoder } from '../decoder/encoder.js';
 import { LandmarkCollector } from '../decoder/landmarks.js';
 import { COMMANDS, RESULTS } from '../decoder/message.js';
 import { RigCollector, valuesOf } from '../decoder/rig.js';
+import { OscSpotter, SPEAKS_OSC } from './other_protocol.js';
 
 export const SILENCE_MS = 500; // without a sound pose the device or the line is gone (core/wire/README.md)
 const RETRY_MS = [500, 1000, 2000, 4000];
@@ -33,6 +34,7 @@ export class Link {
   #generation = 0; // of the source's callbacks: those of an earlier opening are deaf
   #decoder = new Decoder();
   #encoder = new Encoder();
+  #osc = new OscSpotter();
   #collector = new RigCollector();
   #picture = new LandmarkCollector();
   #earlier = { damaged: 0, lost: 0 }; // of decoders before this one
@@ -148,6 +150,7 @@ export class Link {
   }
 
   #newStream() {
+    this.#osc = new OscSpotter();
     this.#earlier.damaged += this.#decoder.damaged;
     this.#earlier.lost += this.#decoder.stats.lost;
     this.#decoder = new Decoder();
@@ -167,6 +170,7 @@ export class Link {
   }
 
   #take(bytes) {
+    if (this.state === 'waiting' && !this.rig && this.#osc.notices(bytes)) this.problem = SPEAKS_OSC;
     for (const message of this.#decoder.push(bytes)) {
       if (message.type === 'pose') this.#takePose(message);
       else if (message.type === 'status') this.status = message;
@@ -179,6 +183,7 @@ export class Link {
   #takeRig() {
     if (!this.#collector.complete || this.rig?.rig_id === this.#collector.rigId) return;
     this.rig = this.#collector.rig;
+    this.problem = '';
     this.values = null;
     this.onRig(this.rig);
   }
