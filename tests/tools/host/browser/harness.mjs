@@ -18,6 +18,7 @@ const { chromium } = createRequire(`${env('FACEWIRE_ASSETS')}/playwright-core/`)
 
 export const PAGE = env('FACEWIRE_PAGE');
 export const FILE = pathToFileURL(join(PAGE, 'index.html')).href;
+export const ALL_PIXELS = '#pixels=all'; // else a slow computer gets a coarser picture, and pictures cannot be compared
 const VIEWPORT = { width: 848, height: 480 }; // the character gets 480 x 480
 
 // A browser that is closed, with all that it wrote, when the test file ends: `after(() => browser.close())`.
@@ -42,7 +43,7 @@ export class Browser {
 
   // The page, opened; `board`: with a stand-in at its serial port. What it asked for and complained of is in `requests` and
   // `complaints`.
-  async open(url = FILE, { board = false, viewport = VIEWPORT, theme = 'dark', ...more } = {}) {
+  async open(url = FILE + ALL_PIXELS, { board = false, viewport = VIEWPORT, theme = 'dark', ...more } = {}) {
     const context = await this.chromium.newContext({ viewport, colorScheme: theme, acceptDownloads: true, ...more });
     if (board) await context.addInitScript({ path: env('FACEWIRE_BOARD') });
     const page = await context.newPage();
