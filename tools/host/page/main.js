@@ -14,23 +14,38 @@ const $ = (id) => document.getElementById(id);
 const view = $('view');
 const studio = new Studio(view);
 const otto = new Character();
-studio.scene.add(otto.root);
 const link = new Link();
 const values = new Values($('values'));
 const plot = new Plot($('plot'), $('legend'));
 const recording = new Recording(franck);
 
+let character = null;
 let driver = null;
 let shown = null; // the values that the character stands at
 let stale = true; // the picture does not show what it should
 
+// --- who moves
+
+// From now on `next` moves in the other's place, from neutral.
+function show(next) {
+  if (character) studio.scene.remove(character.root);
+  character = next;
+  studio.scene.add(character.root);
+  drive();
+}
+function drive() {
+  character.neutral();
+  driver = link.rig ? new Driver(character, link.rig) : null;
+  shown = link.rig ? Float32Array.from(link.rig.channels, (c) => c.neutral) : null;
+  if (driver) values.show(link.rig, driver.unused);
+  stale = true;
+}
+show(otto);
+
 // --- what comes over the line
 
-link.onRig = (rig) => {
-  otto.neutral();
-  driver = new Driver(otto, rig);
-  shown = Float32Array.from(rig.channels, (c) => c.neutral);
-  values.show(rig, driver.unused);
+link.onRig = () => {
+  drive();
   plot.clear();
   choosePlotted();
 };
