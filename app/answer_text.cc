@@ -35,6 +35,8 @@ const char* RefusedText(CommandCode code) noexcept {
       return "there is no personal profile to blend in, or the part is not within 0 and 100 %";
     case CommandCode::kMoveServo:
       return "no such servo is driven by this service, or an emergency stop holds";
+    case CommandCode::kLandmarks:
+      return "landmarks go to the host on the line alone, of 0 to 60 pictures a second";
     case CommandCode::kReport:
     case CommandCode::kReload:
       return "only programs on the device itself may ask that, on its control socket";

@@ -178,7 +178,8 @@ void Application::Open() {
   }
   StartCamera(*camera_, camera_address_);
 
-  line_.emplace(port_.get(), clock_, milliseconds(config_.host.write_budget_ms));
+  line_.emplace(port_.get(), clock_, milliseconds(config_.host.write_budget_ms),
+                config_.host.protocol, config_.host.baud);
   if (!line_->Open()) throw Failure(line_address_ + ": was lost while starting");
   service_.emplace(
       ServiceConfigOf(config_),
@@ -377,7 +378,8 @@ std::string Application::Summary() const {
   text += cast_.Summary();
   text += "gpio     " + GpioSummary(config_.gpio) + "\n";
   text += "servos   " + ServoSummary() + "\n";
-  text += "host     " + (line_address_.empty() ? "none" : line_address_) + "\n";
+  text += "host     " + (line_address_.empty() ? "none" : line_address_) +
+          (config_.host.protocol == HostProtocol::kOsc ? ", OSC in SLIP\n" : "\n");
   text += "control  " + (socket.empty() ? "none" : socket.string()) + "\n";
   return text;
 }

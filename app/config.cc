@@ -85,6 +85,8 @@ void ReadFilter(TableReader filter, filter::FilterConfig& config) {
 
 void ReadHost(TableReader host, const std::filesystem::path& folder, HostConfig& config) {
   ReadLineAddress(host, "line", folder, true, config.line);
+  host.Choice<HostProtocol>("protocol", config.protocol,
+                            {{"native", HostProtocol::kNative}, {"osc", HostProtocol::kOsc}});
   host.Integer("baud", config.baud, 1200, 4'000'000, "baud");
   host.Integer("write_budget_ms", config.write_budget_ms, 0, 20, "ms");
   host.Integer("min_rate_hz", config.min_rate_hz, 20, 240, "Hz");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/animatronic/bus_config.h"
+#include "app/host_protocol.h"
 #include "core/base/time.h"
 #include "core/filter/landmark_filter.h"
 #include "core/pose/pose_estimator.h"
@@ -62,9 +63,10 @@ struct NeutralConfig {
 struct HostConfig {
   std::string line =
       "serial:/dev/ttyACM0";  // "serial:PATH", "pty:LINK" (the link is made) or "none"
-  int baud = 115200;          // of a serial line
-  int write_budget_ms = 5;    // a tick waits so long at most for the line to take bytes
-  int min_rate_hz = 20;       // poses a second even when the camera is silent
+  HostProtocol protocol = HostProtocol::kNative;
+  int baud = 115200;        // of a serial line; OSC never says more than that carries
+  int write_budget_ms = 5;  // a tick waits so long at most for the line to take bytes
+  int min_rate_hz = 20;     // poses a second even when the camera is silent
   // An open line that takes nothing for so long is stuck, which the watchdog ends by a restart. 0:
   // never (a host that may be off, at a USB gadget's other end).
   float stuck_after_s = 10;

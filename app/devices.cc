@@ -48,6 +48,7 @@ class SerialLine final : public hal::SerialPort {
                            std::chrono::milliseconds timeout) override {
     return active_->Read(buffer, timeout);
   }
+  std::size_t Unsent() override { return active_->Unsent(); }
   void Close() override { active_->Close(); }
 
  private:

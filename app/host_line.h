@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "app/backoff.h"
+#include "app/host_protocol.h"
+#include "app/landmark_feed.h"
+#include "app/speech.h"
 #include "core/base/inline_vector.h"
 #include "core/rig/rig.h"
-#include "core/wire/decoder.h"
-#include "core/wire/encoder.h"
 #include "core/wire/message.h"
 #include "hal/clock.h"
 #include "hal/serial_port.h"
@@ -30,12 +32,14 @@ struct HostLineCounters {
 // The service's end of the line to the host: frames out, commands in. Never waits longer than the
 // budget of a tick, never allocates (opening aside). What is sent first: the rest of a frame that
 // the line took in part (a receiver must not see half a frame), acknowledgements, the pose, the
-// status, and of the rig's description as much as the line still takes.
+// status, of the rig's description as much as the line still takes, and in what room is left then,
+// without waiting, landmarks for a host that asked.
 class HostLine {
  public:
-  // `port` may be null: nothing is sent, and nothing is ever missing. All are borrowed.
-  HostLine(hal::SerialPort* port, hal::Clock& clock, std::chrono::milliseconds budget) noexcept
-      : port_(port), clock_(clock), budget_(budget) {}
+  // `port` may be null: nothing is sent, and nothing is ever missing. All are borrowed. `baud` is
+  // what OSC fits itself to; the native protocol does not need to know.
+  HostLine(hal::SerialPort* port, hal::Clock& clock, std::chrono::milliseconds budget,
+           HostProtocol protocol = HostProtocol::kNative, int baud = 115200) noexcept;
 
   // The rig that poses belong to; borrowed until the next call. Its description is sent at once.
   void SetRig(const Rig& rig, std::uint32_t rig_id) noexcept;
@@ -51,6 +55,12 @@ class HostLine {
   // Queues the answer; it leaves with the next Send.
   void Acknowledge(const wire::Acknowledgement& answer) noexcept;
 
+  // As LandmarkFeed. The host that asked gets what is offered before a Send with that Send and
+  // those that follow, as the line has room; after a lost line it must ask again.
+  bool AskLandmarks(float pictures_a_second) noexcept;
+  bool landmarks_asked() const noexcept { return landmarks_.asked(clock_.Now()); }
+  void OfferLandmarks(const Landmarks& newest) noexcept { landmarks_.Offer(newest); }
+
   // One tick: reopens a lost line when it is time, then sends. `status` may be null: not due.
   // True when the pose was handed over completely.
   bool Send(const wire::Pose& pose, const wire::Status* status) noexcept;
@@ -62,15 +72,22 @@ class HostLine {
   // For how long an open line has taken no byte (every tick has a pose for it); zero while closed.
   Duration TakesNothingFor() const noexcept;
   const HostLineCounters& counters() const noexcept { return counters_; }
-  const wire::LinkStats& received() const noexcept { return decoder_.stats(); }
+  const wire::LinkStats& received() const noexcept;
 
  private:
+  template <class Use>
+  decltype(auto) WithSpeech(Use use) noexcept;
   template <class Message>
   bool Frame(const Message& message) noexcept;
+  bool Hold(Result<std::span<const std::byte>> frame) noexcept;
   bool Flush(Time deadline) noexcept;
+  bool FlushOrDrop(Time deadline) noexcept;
+  bool HasRoom() const noexcept;
   bool SendPose(const wire::Pose& pose, Time deadline) noexcept;
   void SendAcknowledgements(Time deadline) noexcept;
   void SendDescription(Time deadline) noexcept;
+  void SendLandmarks() noexcept;
+  void MeasureRoom() noexcept;
   void Lose(Errc why) noexcept;
 
   hal::SerialPort* port_;
@@ -85,12 +102,17 @@ class HostLine {
   std::size_t next_part_ = 0;   // of the description
   std::size_t parts_left_ = 0;  // of it, to be sent
 
-  wire::Encoder encoder_;
+  LandmarkFeed landmarks_;
+  SpareRoom room_;
+  std::uint64_t bytes_at_pose_ = 0;  // of counters_, before the last pose
+
+  HostProtocol protocol_;
+  NativeSpeech native_;
+  OscSpeech osc_;
   std::array<std::byte, wire::kMaxFrameBytes> out_{};
   std::size_t out_begin_ = 0;  // of what is still to be sent of out_
   std::size_t out_end_ = 0;
 
-  wire::Decoder decoder_;
   std::array<std::byte, 512> in_{};
   std::span<const std::byte> unread_;  // part of in_
   InlineVector<wire::Acknowledgement, 16> answers_;

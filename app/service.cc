@@ -130,7 +130,19 @@ state::Sight Service::See(const Frame& frame) noexcept {
   wish_.seq = frame.seq;
   wish_.captured = now_;
   if (calibration_.Update(now_, followed ? &followed->face : nullptr, outcome_)) EndCalibration();
+  OfferLandmarks(frame, followed);
   return SightOf(followed);
+}
+
+// Stamped as the pose of this tick.
+void Service::OfferLandmarks(const Frame& frame, const Result<Followed>& followed) noexcept {
+  if (!parts_.line.landmarks_asked()) return;
+  Landmarks seen = followed ? followed->landmarks : Landmarks{};
+  seen.seq = frame.seq;
+  seen.captured = now_;
+  seen.width_px = frame.image.width_px;
+  seen.height_px = frame.image.height_px;
+  parts_.line.OfferLandmarks(seen);
 }
 
 void Service::CountDamaged() noexcept {
@@ -279,6 +291,11 @@ void Service::Obey(const Request& request, state::Inputs& in) noexcept {
     case wire::CommandCode::kMoveServo:
       if (parts_.servos == nullptr || motion_.state() == ServiceState::kStopped ||
           !parts_.servos->MoveByHand(request.command.item, request.command.value)) {
+        result = wire::CommandResult::kRefused;
+      }
+      break;
+    case wire::CommandCode::kLandmarks:
+      if (request.asker != kHostLine || !parts_.line.AskLandmarks(request.command.value)) {
         result = wire::CommandResult::kRefused;
       }
       break;

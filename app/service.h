@@ -133,6 +133,7 @@ class Service {
   wire::CommandResult Release(state::Inputs& in, std::string_view& why) noexcept;
   void RememberStop() noexcept;
   void EndCalibration() noexcept;
+  void OfferLandmarks(const Frame& frame, const Result<Followed>& followed) noexcept;
   void Send(const MotionOutput& out) noexcept;
   bool MoveServos(const MotionOutput& out) noexcept;
   bool StatusDue() noexcept;

@@ -31,6 +31,12 @@ class SerialPort {
   virtual Result<std::size_t> Read(std::span<std::byte> buffer,
                                    std::chrono::milliseconds timeout) = 0;
 
+  // Of the bytes that were written, those that the line itself has not had time for: in the
+  // system's queue, not what a chip behind it has stored. 0 of a port that is not open, and of
+  // lines that take no time (a pseudo-terminal, a socket), however late their reader. Allocates
+  // nothing.
+  virtual std::size_t Unsent() { return 0; }
+
   virtual void Close() = 0;
 };
 

@@ -17,7 +17,7 @@ Result<Followed> FramePath::Update(const Frame& frame) noexcept {
   if (!steady) return Lose(steady.error());
   const Result<FacePose> face = pose_.Update(*steady);
   if (!face) return Lose(face.error());
-  return Followed{*face, retargeter_->Update(*face)};
+  return Followed{*steady, *face, retargeter_->Update(*face)};
 }
 
 // A face that cannot be right may be one that the tracker follows wrongly, so it searches anew. The

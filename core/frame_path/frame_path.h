@@ -8,6 +8,7 @@
 #include "core/face_pose.h"
 #include "core/filter/landmark_filter.h"
 #include "core/frame.h"
+#include "core/landmarks.h"
 #include "core/pose/pose_estimator.h"
 #include "core/retarget/retargeter.h"
 #include "core/rig_pose.h"
@@ -24,6 +25,7 @@ struct FramePathConfig {
 
 // What a frame with a face in it came to.
 struct Followed {
+  Landmarks landmarks;  // filtered: what `face` was made from
   FacePose face;
   RigPose rig;  // not limited yet
 };

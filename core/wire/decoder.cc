@@ -193,6 +193,22 @@ ServoPulses ReadServoPulses(Reader& r) noexcept {
   return m;
 }
 
+LandmarkPart ReadLandmarkPart(Reader& r) noexcept {
+  LandmarkPart m;
+  m.frame_seq = r.Integer<std::uint32_t>();
+  m.captured = r.Instant();
+  m.width_px = r.Integer<std::uint16_t>();
+  m.height_px = r.Integer<std::uint16_t>();
+  m.total = r.Integer<std::uint16_t>();
+  m.first = r.Integer<std::uint16_t>();
+  r.Require(m.points.try_resize(r.Integer<std::uint8_t>()) && IsValid(m));
+  for (LandmarkPoint& point : m.points) {
+    point.x_eighth_px = r.Integer<std::int16_t>();
+    point.y_eighth_px = r.Integer<std::int16_t>();
+  }
+  return m;
+}
+
 ReceiverStatus ReadReceiverStatus(Reader& r) noexcept {
   ReceiverStatus m;
   m.setup_id = r.Integer<std::uint32_t>();
@@ -240,6 +256,8 @@ Result<Message> ReadPayload(std::uint8_t type, std::span<const byte> payload) no
       return checked(ReadServoSetup(r));
     case MessageType::kServoPulses:
       return checked(ReadServoPulses(r));
+    case MessageType::kLandmarks:
+      return checked(ReadLandmarkPart(r));
     case MessageType::kReceiverStatus:
       return checked(ReadReceiverStatus(r));
   }

@@ -228,6 +228,23 @@ Result<std::span<const byte>> Encoder::Encode(const ServoPulses& m, std::span<by
   return Finish(w);
 }
 
+Result<std::span<const byte>> Encoder::Encode(const LandmarkPart& m, std::span<byte> out) noexcept {
+  Writer w(out, MessageType::kLandmarks, sequence_);
+  w.Integer(m.frame_seq);
+  w.Integer(m.captured.time_since_epoch().count());
+  w.Integer(m.width_px);
+  w.Integer(m.height_px);
+  w.Integer(m.total);
+  w.Integer(m.first);
+  w.Integer(static_cast<std::uint8_t>(m.points.size()));
+  w.Require(IsValid(m));
+  for (const LandmarkPoint& point : m.points) {
+    w.Integer(point.x_eighth_px);
+    w.Integer(point.y_eighth_px);
+  }
+  return Finish(w);
+}
+
 Result<std::span<const byte>> Encoder::Encode(const ReceiverStatus& m,
                                               std::span<byte> out) noexcept {
   Writer w(out, MessageType::kReceiverStatus, sequence_);

@@ -16,7 +16,7 @@ class Encoder {
   // Writes the frame, with both of its delimiters, to the front of `out` and returns that part.
   // kFull: `out` is too small (k...FrameBytes in message.h always suffices). kInvalidArgument: a
   // number that is not finite, min <= neutral <= max does not hold, a bone index above 254, or a
-  // rule of core/wire/servo_message.h.
+  // rule of core/wire/servo_message.h or landmark_part.h.
   // After an error nothing may be sent, and the next frame gets the number that this one would have
   // had.
   Result<std::span<const std::byte>> Encode(const RigHeader&, std::span<std::byte> out) noexcept;
@@ -32,6 +32,7 @@ class Encoder {
   Result<std::span<const std::byte>> Encode(const Text&, std::span<std::byte> out) noexcept;
   Result<std::span<const std::byte>> Encode(const ServoSetup&, std::span<std::byte> out) noexcept;
   Result<std::span<const std::byte>> Encode(const ServoPulses&, std::span<std::byte> out) noexcept;
+  Result<std::span<const std::byte>> Encode(const LandmarkPart&, std::span<std::byte> out) noexcept;
   Result<std::span<const std::byte>> Encode(const ReceiverStatus&,
                                             std::span<std::byte> out) noexcept;
   // Whichever the message is.

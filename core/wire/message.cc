@@ -24,6 +24,8 @@ const char* Name(CommandCode code) noexcept {
       return "reload";
     case CommandCode::kMoveServo:
       return "move_servo";
+    case CommandCode::kLandmarks:
+      return "landmarks";
   }
   return "unknown";
 }

@@ -13,6 +13,7 @@
 #include "core/base/time.h"
 #include "core/rig/rig.h"
 #include "core/service_state.h"
+#include "core/wire/landmark_part.h"
 #include "core/wire/servo_message.h"
 
 // The messages of the native protocol as plain structs. Their bytes: core/wire/README.md.
@@ -29,6 +30,7 @@ enum class MessageType : std::uint8_t {
   kText = 0x13,
   kServoSetup = 0x14,
   kServoPulses = 0x15,
+  kLandmarks = 0x16,
   kCommand = 0x80,
   kReceiverStatus = 0x81,
 };
@@ -102,6 +104,7 @@ enum class CommandCode : std::uint8_t {
   // item: a servo, by its place in the rig's file; value: its position, in its own unit. A hand
   // goes before the performer for as long as it repeats this within the rig's `fresh` (200 ms).
   kMoveServo = 10,
+  kLandmarks = 11,  // value: pictures a second, 0..60, for the next 5 s
 };
 
 struct Command {
@@ -112,7 +115,7 @@ struct Command {
 };
 constexpr bool TakesItem(CommandCode code) noexcept { return code == CommandCode::kMoveServo; }
 constexpr bool TakesValue(CommandCode code) noexcept {
-  return code == CommandCode::kBlendProfile || TakesItem(code);
+  return code == CommandCode::kBlendProfile || code == CommandCode::kLandmarks || TakesItem(code);
 }
 
 // The numbers are those of the wire: append only; one that is not named here is a failure.
@@ -159,7 +162,7 @@ struct Text {
 
 using Message =
     std::variant<RigHeader, BoneDescription, ChannelDescription, Pose, Status, Acknowledgement,
-                 Command, Text, ServoSetup, ServoPulses, ReceiverStatus>;
+                 Command, Text, ServoSetup, ServoPulses, LandmarkPart, ReceiverStatus>;
 static_assert(std::is_trivially_copyable_v<Message>);
 
 const char* Name(CommandCode code) noexcept;      // "calibrate_neutral"; "unknown" for a later one
@@ -195,6 +198,8 @@ inline constexpr std::size_t kServoSetupFrameBytes =
     MaxFrameBytes(ServoSetupPayloadBytes(kMaxServos));
 inline constexpr std::size_t kServoPulsesFrameBytes =
     MaxFrameBytes(ServoPulsesPayloadBytes(kMaxServos));
+inline constexpr std::size_t kLandmarkPartFrameBytes =
+    MaxFrameBytes(LandmarkPartPayloadBytes(kMaxLandmarksInPart));
 inline constexpr std::size_t kReceiverStatusFrameBytes =
     MaxFrameBytes(ReceiverStatusPayloadBytes(kMaxServos));
 inline constexpr std::size_t kMaxFrameBytes = MaxFrameBytes(kMaxPayloadBytes);  // of any message

@@ -1,6 +1,7 @@
 #include "hal/posix/byte_stream.h"
 
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -90,6 +91,11 @@ Result<std::size_t> WriteFor(int fd, std::span<const std::byte> bytes,
     }
   }
   return taken;
+}
+
+std::size_t UnsentOf(int fd) noexcept {
+  int count = 0;
+  return ::ioctl(fd, TIOCOUTQ, &count) == 0 && count > 0 ? static_cast<std::size_t>(count) : 0;
 }
 
 }  // namespace facewire::hal::posix

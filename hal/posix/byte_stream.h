@@ -38,6 +38,9 @@ Result<std::size_t> ReadFor(int fd, std::span<std::byte> buffer,
 Result<std::size_t> WriteFor(int fd, std::span<const std::byte> bytes,
                              std::chrono::milliseconds timeout) noexcept;
 
+// As SerialPort::Unsent: what waits in the system's output queue. 0 when it does not tell.
+std::size_t UnsentOf(int fd) noexcept;
+
 }  // namespace facewire::hal::posix
 
 #endif  // FACEWIRE_HAL_POSIX_BYTE_STREAM_H_

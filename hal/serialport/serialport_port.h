@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "hal/posix/byte_stream.h"
 #include "hal/posix/unique_fd.h"
 #include "hal/serial_port.h"
 
@@ -36,6 +37,7 @@ class SerialportPort final : public SerialPort {
   Result<std::size_t> Write(std::span<const std::byte> bytes,
                             std::chrono::milliseconds timeout) override;
   Result<std::size_t> Read(std::span<std::byte> buffer, std::chrono::milliseconds timeout) override;
+  std::size_t Unsent() override { return posix::UnsentOf(fd_); }
   void Close() override;
 
  private:

@@ -64,6 +64,8 @@ TEST(LoadConfig, SaysWhatIsWrongWhereAndWhatWouldBeRight) {
       {"[character]\nblend = 50\n", "F:2:9: character.blend: 50 is out of range; allowed: 0 to 1"},
       {"[filter.eyes]\nbeta = false\n",
        "F:2:8: filter.eyes.beta: is true or false; expected a number"},
+      {"[host]\nprotocol = \"OSC\"\n",
+       "F:2:12: host.protocol: \"OSC\" is none of \"native\", \"osc\"; did you mean \"osc\"?"},
       {"[host]\nmin_rate_hz = 5\n",
        "F:2:15: host.min_rate_hz: 5 is out of range; allowed: 20 to 240 Hz"},
   };
@@ -148,12 +150,13 @@ TEST(LoadConfig, ResolvesPathsAgainstTheFolderOfTheFile) {
   const Scratch scratch;
   const auto file = scratch.Write("f.toml",
                                   "[camera.replay]\nfile = \"a/../clip.mp4\"\n"
-                                  "[host]\nline = \"pty:line\"\n"
+                                  "[host]\nline = \"pty:line\"\nprotocol = \"osc\"\n"
                                   "[tracker]\nnetworks = \"/n\"\n[character]\nprofile = \"\"\n");
   const Config config = LoadConfig(file);
   EXPECT_EQ(config.camera.replay.file, scratch / "clip.mp4");
   EXPECT_EQ(config.character.rig, scratch / "rig.toml") << "a default, too";
   EXPECT_EQ(config.host.line, "pty:" + (scratch / "line").string());
+  EXPECT_EQ(config.host.protocol, HostProtocol::kOsc);
   EXPECT_EQ(config.tracker.networks, "/n");
   EXPECT_TRUE(config.character.profile.empty()) << "an empty path stays empty";
 }
@@ -212,6 +215,7 @@ TEST(ExampleConfig, ListsEveryKeyWithItsDefault) {
   EXPECT_EQ(read.neutral.folder, defaults.neutral.folder);
   EXPECT_EQ(read.neutral.auto_s, defaults.neutral.auto_s);
   EXPECT_EQ(read.host.line, defaults.host.line);
+  EXPECT_EQ(read.host.protocol, defaults.host.protocol);
   EXPECT_EQ(read.host.baud, defaults.host.baud);
   EXPECT_EQ(read.host.write_budget_ms, defaults.host.write_budget_ms);
   EXPECT_EQ(read.host.min_rate_hz, defaults.host.min_rate_hz);

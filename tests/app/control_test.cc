@@ -90,6 +90,17 @@ TEST(Control, AnswersACommandWithinATick) {
   EXPECT_TRUE(c.answers.empty()) << "the host did not ask";
 }
 
+TEST(Control, RefusesLandmarksWhichAreForTheLine) {
+  ControlContext c;
+  c.BringToTracking();
+  const auto client = c.Connect();
+  client->Send(CommandCode::kLandmarks, 1, 30);
+  c.For(seconds(1));
+  ASSERT_EQ(client->Answers().size(), 1U);
+  EXPECT_EQ(client->Answers()[0].result, CommandResult::kRefused);
+  EXPECT_TRUE(c.parts.empty());
+}
+
 TEST(Control, CommandsWhatAHostCommands) {
   ControlContext c;
   c.GivePersonalProfile();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/wire/decoder.h"
+#include "core/wire/encoder.h"
 #include "core/wire/rig_description.h"
 #include "hal/pty/pty_port.h"
 #include "tests/app/process.h"
@@ -50,9 +51,17 @@ class Listener {
     return true;
   }
 
+  // Asks for something, once the line is there.
+  bool Say(const wire::Command& command) {
+    std::array<std::byte, wire::kCommandFrameBytes> out;
+    const auto frame = encoder_.Encode(command, out);
+    return frame && open_ && port_.Write(*frame, std::chrono::milliseconds(100)) == frame->size();
+  }
+
   wire::RigCollector rig;
   std::vector<wire::Pose> poses;
   std::vector<wire::Status> statuses;
+  std::vector<wire::LandmarkPart> parts;
   bool hung_up = false;
   const wire::LinkStats& stats() const { return decoder_.stats(); }
   ServiceState state() const {
@@ -85,12 +94,14 @@ class Listener {
       rig.Add(got->message);
       if (const auto* pose = std::get_if<wire::Pose>(&got->message)) poses.push_back(*pose);
       if (const auto* s = std::get_if<wire::Status>(&got->message)) statuses.push_back(*s);
+      if (const auto* p = std::get_if<wire::LandmarkPart>(&got->message)) parts.push_back(*p);
     }
   }
 
   hal::pty::PtyPort port_;
   bool open_ = false;
   wire::Decoder decoder_;
+  wire::Encoder encoder_;
 };
 
 class Facewired {

@@ -33,6 +33,7 @@ class ScriptedFollower final : public Follower {
     followed.face.seq = frame.seq;
     followed.face.captured = frame.captured;
     if (act) act(followed.face);
+    followed.landmarks = landmarks;
     followed.rig.count = 3;
     followed.rig.values[0] = jaw;
     followed.rig.values[1] = followed.rig.values[2] = blink;
@@ -47,6 +48,7 @@ class ScriptedFollower final : public Follower {
   float jaw = 10;
   float blink = 0;
   FacePose face;
+  Landmarks landmarks;
   std::function<void(FacePose&)> act;  // what the face does at its time
   int forgotten = 0;
   int uses = 0;
@@ -195,6 +197,7 @@ class ServiceContext {
   std::vector<Time> pose_times;
   std::vector<wire::Status> statuses;
   std::vector<wire::Acknowledgement> answers;
+  std::vector<wire::LandmarkPart> parts;
 
  private:
   void Receive() {
@@ -221,6 +224,8 @@ class ServiceContext {
         statuses.push_back(*status);
       } else if (const auto* answer = std::get_if<wire::Acknowledgement>(&got->message)) {
         answers.push_back(*answer);
+      } else if (const auto* part = std::get_if<wire::LandmarkPart>(&got->message)) {
+        parts.push_back(*part);
       }
     }
   }

@@ -179,6 +179,17 @@ TYPED_TEST_P(SerialPortConformance, EmptySpansAreAnsweredAtOnce) {
   EXPECT_EQ(this->port().Read({}, kAmple).error(), Errc::kInvalidArgument);
 }
 
+TYPED_TEST_P(SerialPortConformance, NothingIsUnsentOnceItHasArrivedOrTheLineIsClosed) {
+  EXPECT_EQ(this->port().Unsent(), 0U);
+  ASSERT_TRUE(this->port().Open());
+  ASSERT_EQ(this->port().Write(Bytes(64), kAmple), 64U);
+  EXPECT_LE(this->port().Unsent(), 64U);
+  ASSERT_EQ(this->line().FarReceive(64).size(), 64U);
+  EXPECT_EQ(this->port().Unsent(), 0U);
+  this->port().Close();
+  EXPECT_EQ(this->port().Unsent(), 0U);
+}
+
 TYPED_TEST_P(SerialPortConformance, WorksAgainAfterCloseAndOpen) {
   ASSERT_TRUE(this->port().Open());
   this->port().Close();
@@ -199,6 +210,7 @@ TYPED_TEST_P(SerialPortConformance, ReadingAndWritingAllocateNothing) {
   counter.Arm();
   const Result<std::size_t> written = this->port().Write(message, kAmple);
   const Result<std::size_t> read = this->port().Read(buffer, kAmple);
+  (void)this->port().Unsent();
   counter.Disarm();
   counter.PrintFirst();
   EXPECT_EQ(written, 64U);
@@ -213,6 +225,7 @@ REGISTER_TYPED_TEST_SUITE_P(SerialPortConformance, IsDisconnectedUntilItIsOpenAn
                             ReadGivesWhatHasArrivedWithoutWaitingForMore,
                             AShortBufferLeavesTheRestForTheNextRead, SilenceEndsAtTheDeadline,
                             SignalsNeitherEndNorFailAWait, EmptySpansAreAnsweredAtOnce,
+                            NothingIsUnsentOnceItHasArrivedOrTheLineIsClosed,
                             WorksAgainAfterCloseAndOpen, ReadingAndWritingAllocateNothing);
 
 TYPED_TEST_P(SerialPortHangUp, ADeviceThatGoesIsDisconnectedForReaders) {

@@ -61,8 +61,7 @@ class LineServer::Impl {
     if (port_ <= 0) {
       if (context_ != nullptr) lws_context_destroy(context_);
       throw app::Failure("cannot listen on " + config.address + " port " +
-                         std::to_string(config.port) + ": is it an address of this machine, and " +
-                         "is the port free?");
+                         std::to_string(config.port));
     }
   }
   ~Impl() { lws_context_destroy(context_); }

@@ -17,6 +17,22 @@ int Report(const std::string& what, int code) {
   return code;
 }
 
+// What is wrong with the words of the command line, and whose --help tells more.
+std::string Complaint(const CLI::App& facewire, const CLI::ParseError& error) {
+  const CLI::App* command = &facewire;
+  std::string name = "facewire";
+  while (!command->get_subcommands().empty()) {
+    command = command->get_subcommands().front();
+    name += " " + command->get_name();
+  }
+  std::string what = error.what();
+  const auto rest = facewire.remaining(true);
+  if (command->get_require_subcommand_min() > 0 && !rest.empty()) {
+    what = "there is no '" + name + " " + rest.front() + "'";
+  }
+  return what + "; see " + name + " --help";
+}
+
 void AddCommands(CLI::App& facewire) {
   using namespace facewire::tools;  // NOLINT(google-build-using-namespace): this list and nothing
                                     // else
@@ -59,7 +75,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& wanted) {  // --help, --version
     return facewire.exit(wanted);
   } catch (const CLI::ParseError& error) {
-    return Report(std::string(error.what()) + "; see facewire --help", kBadInput);
+    return Report(Complaint(facewire, error), kBadInput);
   } catch (const facewire::app::BadInput& error) {
     return Report(error.what(), kBadInput);
   } catch (const std::exception& error) {

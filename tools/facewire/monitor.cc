@@ -59,6 +59,7 @@ bool LocaleIsUtf8() {
 void RequireFrames(const MonitorModel& model, MonitorEnd end) {
   if (model.link.frames > 0 || end == MonitorEnd::kInterrupted) return;
   const std::string found = std::to_string(model.bytes) + " bytes, but no facewire frame";
+  if (!model.note.empty()) throw app::BadInput(model.port + ": " + model.note);
   if (end == MonitorEnd::kEndOfFile) throw app::BadInput(model.port + " holds " + found);
   throw app::Failure(model.port + ": " + found + " arrived" +
                      (model.bytes > 0 ? "; is the baud rate right?" : "; is the device sending?"));

@@ -52,6 +52,7 @@ MonitorEnd MonitorSession::Run(const MonitorLimits& limits, const std::function<
 bool MonitorSession::Take(std::span<const std::byte> bytes,
                           std::optional<std::uint64_t> max_poses) {
   model_.bytes += bytes.size();
+  const std::span<const std::byte> read = bytes;
   bool done = false;
   while (!done) {
     const auto received = decoder_.Next(bytes);
@@ -60,6 +61,7 @@ bool MonitorSession::Take(std::span<const std::byte> bytes,
     done = max_poses && model_.poses >= *max_poses;
   }
   model_.link = decoder_.stats();
+  if (osc_.Notices(read, model_.link.frames)) model_.note = kSpeaksOsc;
   return done;
 }
 

@@ -11,6 +11,7 @@
 #include "tools/facewire/monitor_model.h"
 #include "tools/facewire/monitor_recorder.h"
 #include "tools/facewire/monitor_view.h"
+#include "tools/facewire/other_protocol.h"
 #include "tools/facewire/rig_question.h"
 
 namespace facewire::tools {
@@ -63,6 +64,7 @@ class MonitorSession {
   MonitorModel model_;
   wire::Decoder decoder_;
   RigQuestion question_;
+  OscSpotter osc_;
   Time next_show_{};
 };
 

@@ -227,7 +227,7 @@ std::string FooterLine(const MonitorModel& m, std::size_t hidden, int columns, S
   Line line(columns, style);
   line.Add(" Ctrl-C ends", kDim);
   if (hidden > 0) line.Add(Format("  %zu more channels: enlarge the terminal", hidden), kYellow);
-  if (m.bytes > 2000 && m.link.frames == 0) {
+  if (m.bytes > 2000 && m.link.frames == 0 && m.note.empty()) {
     line.Add("  bytes arrive, but no frame: is the baud rate right?", kYellow);
   }
   if (!m.note.empty()) line.Add("  " + m.note, kYellow);

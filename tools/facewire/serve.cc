@@ -14,6 +14,9 @@
 #include "hal/system_clock.h"
 #include "tools/facewire/commands.h"
 #include "tools/facewire/line_server.h"
+#include "tools/facewire/listen_address.h"
+#include "tools/facewire/other_protocol.h"
+#include "tools/facewire/servo/search.h"
 #include "tools/facewire/stop_flag.h"
 
 namespace facewire::tools {
@@ -42,6 +45,15 @@ std::filesystem::path Page(const std::string& asked) {
   return page;
 }
 
+// What a person gives who does not know the port's name yet.
+[[noreturn]] void AskForPort() {
+  std::string there;
+  for (const std::string& port : SerialPorts()) there += (there.empty() ? "" : ", ") + port;
+  throw app::BadInput("PORT is required; " + (there.empty()
+                                                  ? "no serial port is here: plug the device in"
+                                                  : "the serial ports here: " + there));
+}
+
 // The serial line, opened again whenever it went.
 class Line {
  public:
@@ -54,7 +66,7 @@ class Line {
   std::span<const std::byte> Read() {
     if (!open_ && !Reopen()) return {};
     const auto read = port_->Read(buffer_, kReadFor);
-    if (read) return std::span(buffer_).first(*read);
+    if (read) return Noticed(std::span(buffer_).first(*read));
     if (read.error() != Errc::kTimeout) Lost();
     return {};
   }
@@ -68,6 +80,12 @@ class Line {
     open_ = false;
     port_->Close();
     std::fprintf(stderr, "facewire: %s is gone, waiting for it\n", name_.c_str());
+  }
+  std::span<const std::byte> Noticed(std::span<const std::byte> bytes) {
+    if (osc_.Notices(bytes, 0)) {
+      std::fprintf(stderr, "facewire: %s: %s\n", name_.c_str(), kSpeaksOsc);
+    }
+    return bytes;
   }
   bool Reopen() {
     const Time now = clock_.Now();
@@ -88,14 +106,17 @@ class Line {
   std::unique_ptr<hal::SerialPort> port_;
   hal::SystemClock clock_;
   app::Backoff backoff_;
+  OscSpotter osc_;
   bool open_ = true;
   std::array<std::byte, 4096> buffer_{};
 };
 
 void Serve(const Options& options) {
+  if (options.port.empty()) AskForPort();
   const auto page = Page(options.page);
+  const std::string address = ListenAddress(options.address, options.web_port);
   Line line(options);
-  LineServer server({.address = options.address, .port = options.web_port, .files = page});
+  LineServer server({.address = address, .port = options.web_port, .files = page});
   const StopFlag stop;
   std::printf("http://%s:%d/\n",
               options.address == "0.0.0.0" ? "localhost" : options.address.c_str(), server.port());
@@ -113,9 +134,9 @@ void AddServe(CLI::App& facewire) {
   auto* command = facewire.add_subcommand(
       "serve", "Show the character in a browser: the page, and a line's bytes for it");
   const auto options = std::make_shared<Options>();
-  command
-      ->add_option("PORT", options->port, "The device's line: a serial port or a pseudo-terminal")
-      ->required();
+  command->add_option("PORT", options->port,
+                      "The device's line: a serial port or a pseudo-terminal; without it, an error "
+                      "names the serial ports that are here");
   command->add_option("--baud", options->baud, "Bits a second of a serial port")
       ->capture_default_str()
       ->check(CLI::Range(300, 4'000'000));

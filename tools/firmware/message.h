@@ -7,7 +7,9 @@
 // The messages of the native protocol (core/wire/README.md) that a receiver of servo pulses reads
 // and writes. Pulse widths are in quarters of a microsecond.
 
+#ifndef FW_SERVOS
 #define FW_SERVOS 12  // that this receiver drives
+#endif
 #define FW_MIN_PULSE (4 * 500)
 #define FW_MAX_PULSE (4 * 2500)
 
@@ -38,8 +40,11 @@ typedef struct {
   uint16_t width[FW_SERVOS];  // 0: no pulse
 } FwPulses;
 
-// The longest payload that is read: that of a setup for all servos.
+// The longest payload that is read: that of a setup for all servos. A program that reads other
+// messages, too, says what it keeps.
+#ifndef FW_MAX_PAYLOAD_BYTES
 #define FW_MAX_PAYLOAD_BYTES (17 + 12 * FW_SERVOS)
+#endif
 
 typedef enum {
   kFwOk,

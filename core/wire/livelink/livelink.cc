@@ -1,6 +1,7 @@
 #include "core/wire/livelink/livelink.h"
 
 #include <bit>
+#include <numbers>
 
 namespace facewire::wire::livelink {
 namespace {
@@ -21,11 +22,12 @@ class Packet {
     Put(static_cast<std::int32_t>(text.size()));
     for (char c : text) out_[size_++] = static_cast<std::byte>(c);
   }
-  // Degrees of the rig as half turns of Unreal's rotators; README.md has the signs.
+  // Degrees of the rig as radians of Unreal's rotators; README.md has the signs.
   void Put(const HeadAngles& angles) noexcept {
-    Put(-angles.yaw_deg / 180);
-    Put(angles.pitch_deg / 180);
-    Put(-angles.roll_deg / 180);
+    constexpr float kRadians = std::numbers::pi_v<float> / 180;
+    Put(-angles.yaw_deg * kRadians);
+    Put(angles.pitch_deg * kRadians);
+    Put(-angles.roll_deg * kRadians);
   }
   std::span<const std::byte> bytes() const noexcept { return out_.first(size_); }
 

@@ -1,5 +1,7 @@
 #include "core/wire/osc/slip.h"
 
+#include <utility>
+
 namespace facewire::wire::osc {
 namespace {
 
@@ -30,6 +32,44 @@ Result<std::span<const std::byte>> Slip(std::span<const std::byte> packet,
   }
   out[size++] = kEnd;
   return out.first(size);
+}
+
+Result<std::span<const std::byte>> SlipDecoder::Next(std::span<const std::byte>& bytes) noexcept {
+  while (!bytes.empty()) {
+    const std::byte byte = bytes.front();
+    bytes = bytes.subspan(1);
+    if (byte != kEnd) {
+      Append(byte);
+      continue;
+    }
+    if (escaped_) error_ = Errc::kCorrupt;
+    const Errc error = std::exchange(error_, Errc{});
+    const std::size_t size = std::exchange(size_, 0);
+    escaped_ = false;
+    if (error != Errc{}) return error;
+    if (size > 0) return std::span<const std::byte>(memory_.first(size));
+  }
+  return Errc::kNotReady;
+}
+
+void SlipDecoder::Append(std::byte byte) noexcept {
+  if (error_ != Errc{}) return;
+  if (!escaped_ && byte == kEscape) {
+    escaped_ = true;
+    return;
+  }
+  if (std::exchange(escaped_, false)) {
+    if (byte != kEscapedEnd && byte != kEscapedEscape) {
+      error_ = Errc::kCorrupt;
+      return;
+    }
+    byte = byte == kEscapedEnd ? kEnd : kEscape;
+  }
+  if (size_ == memory_.size()) {
+    error_ = Errc::kFull;
+    return;
+  }
+  memory_[size_++] = byte;
 }
 
 }  // namespace facewire::wire::osc

@@ -189,7 +189,8 @@ TEST(Decoder, RandomBytesNeverHurtAndTheNextFrameIsAlwaysDelivered) {
 TEST(Decoder, PayloadsOfRandomBytesAreEitherDeliveredOrCountedAsMalformed) {
   std::mt19937 random(42);
   const auto any = [&](int below) { return std::uniform_int_distribution(0, below - 1)(random); };
-  constexpr std::array kTypes = {0x01, 0x02, 0x03, 0x10, 0x11, 0x12, 0x13, 0x14, 0x15, 0x80, 0x81};
+  constexpr std::array kTypes = {0x01, 0x02, 0x03, 0x10, 0x11, 0x12,
+                                 0x13, 0x14, 0x15, 0x16, 0x80, 0x81};
   for (int round = 0; round < 20'000; ++round) {
     Bytes payload(static_cast<std::size_t>(any(80)));
     for (std::byte& b : payload) b = static_cast<std::byte>(any(any(2) == 0 ? 256 : 4));

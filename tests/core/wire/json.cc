@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace facewire::wire {
 namespace {
@@ -107,6 +108,16 @@ struct AddFields {
   void operator()(const ServoPulses& m) const {
     o.Text("type", "servo_pulses").Int("setup_id", m.setup_id).Int("stop", m.stop ? 1 : 0);
     o.List("quarter_us", m.quarter_us);
+  }
+  void operator()(const LandmarkPart& m) const {
+    o.Text("type", "landmarks").Int("frame_seq", m.frame_seq).At("captured_us", m.captured);
+    o.Int("width_px", m.width_px).Int("height_px", m.height_px);
+    o.Int("total", m.total).Int("first", m.first);
+    std::vector<int> flat;
+    for (const LandmarkPoint& p : m.points) {
+      flat.insert(flat.end(), {p.x_eighth_px, p.y_eighth_px});
+    }
+    o.List("eighth_px", flat);
   }
   void operator()(const ReceiverStatus& m) const {
     o.Text("type", "receiver_status").Int("setup_id", m.setup_id);

@@ -16,11 +16,12 @@ import zlib
 
 MAX_INSIDE = 1024  # header, payload and CRC
 MAX_BONES, MAX_CHANNELS, MAX_NAME, MAX_TEXT, MAX_SERVOS = 80, 240, 31, 480, 64
+MAX_LANDMARKS, MAX_LANDMARKS_IN_PART = 478, 32
 MIN_PULSE, MAX_PULSE = 2000, 10000  # quarters of a microsecond
 KINDS = ["parameter", "position_x", "position_y", "position_z", "pitch", "yaw", "roll"]
 FAULT = 7
 LAST_RECEIVER_STATE = 7
-CODES_WITH_VALUE = {7, 10}
+CODES_WITH_VALUE = {7, 10, 11}
 CODES_WITH_ITEM = {10}
 RESULTS_WITH_MEASURE = range(5, 10)
 
@@ -144,6 +145,15 @@ def read_servo_pulses(p):
             "quarter_us": read_widths(p)}
 
 
+def read_landmarks(p):
+    names = ["frame_seq", "captured_us", "width_px", "height_px", "total", "first"]
+    *fields, count = p.take("IqHHHHB")
+    message = dict(zip(names, fields))
+    require(count <= MAX_LANDMARKS_IN_PART)
+    require(message["first"] + count <= message["total"] <= MAX_LANDMARKS)
+    return {"type": "landmarks", **message, "eighth_px": [p.take("h") for _ in range(2 * count)]}
+
+
 def read_receiver_status(p):
     names = ["setup_id", "state", "capacity", "version_major", "version_minor", "reset_causes",
              "supply_mv", "uptime_ms", "frames", "damaged", "lost", "refused"]
@@ -156,8 +166,8 @@ def read_receiver_status(p):
 
 READERS = {0x01: read_rig_header, 0x02: read_bone, 0x03: read_channel, 0x10: read_pose,
            0x11: read_status, 0x12: read_acknowledgement, 0x13: read_text,
-           0x14: read_servo_setup, 0x15: read_servo_pulses, 0x80: read_command,
-           0x81: read_receiver_status}
+           0x14: read_servo_setup, 0x15: read_servo_pulses, 0x16: read_landmarks,
+           0x80: read_command, 0x81: read_receiver_status}
 
 
 def cobs_decode(piece):

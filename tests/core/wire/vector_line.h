@@ -25,6 +25,8 @@ class Line {
 
 // The vectors of the messages between a device and a receiver of servo pulses.
 void AddServos(std::vector<Vector>& all);
+// Those of landmarks.
+void AddLandmarks(std::vector<Vector>& all);
 
 }  // namespace facewire::wire
 

@@ -267,6 +267,9 @@ void AddFraming(std::vector<Vector>& all) {
           RawFrame(kVersion, 0x80, 1, ping));
   add("numbers_gap", "Three frames never came, across the wrap",
       RawFrame(kVersion, 0x80, 65534, ping) + RawFrame(kVersion, 0x80, 3, ping));
+  add("numbers_far", "32767 frames never came, across the wrap: still a gap; one more is a restart",
+      RawFrame(kVersion, 0x80, 50000, ping) + RawFrame(kVersion, 0x80, 17233, ping) +
+          RawFrame(kVersion, 0x80, 50002, ping));
   add("restart", "0 is the first frame of a sender that started again: nothing is lost",
       RawFrame(kVersion, 0x80, 900, ping) + RawFrame(kVersion, 0x80, 0, ping));
   add("restart_unseen", "A number from behind is a restart whose first frame did not arrive",
@@ -382,6 +385,7 @@ std::vector<Vector> AllVectors() {
   AddDamage(all);
   AddBadLine(all);
   AddServos(all);
+  AddLandmarks(all);
   return all;
 }
 

@@ -64,7 +64,10 @@ TEST(FacewireCli, AnswersBadInputWithOneLineAndExitCode2) {
   };
   const Case cases[] = {
       {{}, "subcommand is required"},
-      {{"dance"}, "see facewire --help"},
+      {{"dance"}, "there is no 'facewire dance'; see facewire --help"},
+      {{"rig", "dance"}, "there is no 'facewire rig dance'; see facewire rig --help"},
+      {{"rig"}, "see facewire rig --help"},
+      {{"rig", "import", no_video}, "--out is required; see facewire rig import --help"},
       {{"track", no_video}, "--out is required"},
       {{"track", no_video, "--out", out}, "no_video.mp4"},
       {{"track", "/nowhere.mp4", "--out", out}, "/nowhere.mp4"},

@@ -75,6 +75,7 @@ class Serve(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         page = pathlib.Path(self.folder.name) / "page"
         page.mkdir()
+        self.page = str(page)
         (page / "index.html").write_text("<p>a page</p>")
         (page / "page.js").write_text("x" * 300_000)
         self.link = pathlib.Path(self.folder.name) / "line"
@@ -160,10 +161,33 @@ class Serve(unittest.TestCase):
         os.write(self.line, b"again")
         self.assertEqual(viewer.receive(5), b"again")
 
+    def refused(self, *arguments):
+        """Exit code and the one line of a second server, which has to end by itself."""
+        second = subprocess.run([FACEWIRE, "serve", *arguments], capture_output=True, text=True, timeout=PATIENCE_S)
+        self.assertEqual(second.stdout, "")
+        self.assertEqual(second.stderr.count("\n"), 1, second.stderr)
+        return second.returncode, second.stderr
+
     def test_a_port_that_is_taken_is_said_in_one_line(self):
-        second = subprocess.run([FACEWIRE, "serve", str(self.link), "--web-port", str(self.port)], capture_output=True, text=True)
-        self.assertIn(second.returncode, (1, 2))
-        self.assertEqual(second.stderr.count("\n"), 1)
+        code, said = self.refused(str(self.link), "--page", self.page, "--web-port", str(self.port))
+        self.assertEqual(code, 1)
+        self.assertIn(f"port {self.port} of 127.0.0.1 is taken; --web-port 0", said)
+
+    def test_an_address_of_nobody_or_of_another_machine_is_refused(self):
+        for address in ("300.1.1.1", "::1", "nobody.invalid", "", "192.0.2.1"):  # the last is for documentation alone
+            code, said = self.refused(str(self.link), "--page", self.page, "--web-port", "0", "--address", address)
+            self.assertEqual(code, 2)
+            self.assertIn(f"--address {address}" if address == "192.0.2.1" else f"--address '{address}'", said)
+
+    def test_a_folder_without_a_page_and_what_is_no_line_are_refused(self):
+        for arguments, why in (((str(self.link), "--page", self.folder.name), "has no index.html"),
+                               ((f"{self.page}/index.html", "--page", self.page), "is not a serial line"),
+                               (("/dev/nobody", "--page", self.page), "there is no port /dev/nobody"),
+                               ((str(self.link), "--web-port", "70000"), "not in range"),
+                               ((), "PORT is required; ")):
+            code, said = self.refused(*arguments)
+            self.assertEqual(code, 2)
+            self.assertIn(why, said)
 
 
 if __name__ == "__main__":

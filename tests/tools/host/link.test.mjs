@@ -67,6 +67,20 @@ test('a link asks for the rig until it is there, and then follows poses', async 
   assert.ok(!line.codes().includes(COMMANDS.describe_rig));
 });
 
+test('a line that speaks OSC is named, until it speaks the native protocol', async () => {
+  const { link, line } = await context();
+  const bundle = [0xc0, ...new TextEncoder().encode('#bundle\0'), 0, 0, 0, 0, 0, 0, 0, 1, 0xc0];
+  line.to.bytes(Uint8Array.from([...bundle, ...bundle].slice(1)));
+  assert.equal(link.problem, '');
+  const more = Uint8Array.from([...bundle, ...bundle]);
+  line.to.bytes(more.slice(0, 4)); // cut anywhere
+  line.to.bytes(more.slice(4));
+  assert.match(link.problem, /speaks OSC; .* protocol = "native"/);
+  assert.equal(link.state, 'waiting');
+  line.to.bytes(franck);
+  assert.equal(link.problem, '');
+});
+
 test('without poses a link is silent, and live again with the next', async () => {
   const { link, line, pass } = await context();
   line.to.bytes(franck.subarray(0, 90000));
@@ -139,6 +153,46 @@ test('with pings the latency is that from the picture to the page', async () => 
   assert.ok(Math.abs(link.latency - 40) < 1, String(link.latency));
 });
 
+test('landmarks are asked for as long as they are wanted, and then once that they end', async () => {
+  const { link, line, pass } = await context();
+  await pass(2000);
+  assert.ok(!line.codes().includes(COMMANDS.landmarks), 'nobody wants any');
+  link.landmarkRate = 30;
+  await pass(4000);
+  const asked = line.sent.splice(0).filter((m) => m.code === COMMANDS.landmarks);
+  assert.ok(asked.length >= 4 && asked.every((m) => m.value === 30), 'each second: they last five');
+  link.landmarkRate = 0;
+  await pass(3000);
+  assert.deepEqual(line.sent.filter((m) => m.code === COMMANDS.landmarks).map((m) => m.value), [0]);
+});
+
+test('pictures of landmarks are told when they are whole', async () => {
+  const { link, line } = await context();
+  const told = [];
+  link.onLandmarks = (picture) => told.push(picture);
+  line.to.bytes(franck);
+  assert.ok(told.length > 140, String(told.length));
+  assert.ok(told.every(({ points }) => points.length === 2 * 478 && points.every(Number.isFinite)));
+});
+
+test('a device that has no landmarks is asked once, and again when the line was opened anew', async () => {
+  for (const [result, name] of [[1, 'unknown'], [2, 'refused']]) {
+    const { link, line, pass } = await context();
+    link.landmarkRate = 30;
+    await pass(1000);
+    const { id } = line.sent.findLast((m) => m.code === COMMANDS.landmarks);
+    line.to.bytes(acknowledgement(id, 0, COMMANDS.landmarks, result));
+    assert.equal(link.landmarksRefused, name);
+    line.codes();
+    await pass(5000);
+    assert.ok(!line.codes().includes(COMMANDS.landmarks));
+    line.to.closed();
+    await pass(3000);
+    assert.equal(link.landmarksRefused, '');
+    assert.ok(line.codes().includes(COMMANDS.landmarks));
+  }
+});
+
 // The device's side, for this test alone: frames made from their spelled-out bytes.
 function frame(type, payload) {
   const inside = Uint8Array.from([1, type, 0, 0, ...payload]);
@@ -163,7 +217,7 @@ function crc32(bytes) {
   return ~r >>> 0;
 }
 const little = (value, size) => Array.from({ length: size }, (_, i) => Number((BigInt(value) >> BigInt(8 * i)) & 255n));
-const acknowledgement = (id, now) => frame(0x12, [...little(id, 2), 1, 0, ...little(now, 8)]);
+const acknowledgement = (id, now, code = COMMANDS.ping, result = 0) => frame(0x12, [...little(id, 2), code, result, ...little(now, 8)]);
 const frameOf = (pose) => frame(0x10, [...little(pose.rig_id, 4), ...little(pose.frame_seq, 4), ...little(pose.captured_us, 8),
   ...little(pose.age_us, 4), pose.state, pose.steps.length, ...pose.steps.flatMap((s) => little(s, 2))]);
 

@@ -114,6 +114,32 @@ class Pages(unittest.TestCase):
                         self.assertIn(name, text)
                     self.assertIn(name.removeprefix("--"), (MADE / f"{program}.fish").read_text())
 
+    def test_every_verb_has_a_section_with_its_own_options(self):
+        sections = re.split(r"^\.SS ", (MADE / "facewire.1").read_text(), flags=re.MULTILINE)
+        sections = {name: unformatted(text) for name, _, text in (s.partition("\n") for s in sections)}
+        verbs = [command for command in help_text.read([PROGRAMS["facewire"]]) if " " in command.name]
+        self.assertGreater(len(verbs), 8)
+        for verb in verbs:
+            section = sections[verb.name]
+            self.assertIn(f"facewire {verb.name} ", section)
+            for option in verb.options:
+                if "--help" not in option.names:
+                    self.assertIn(f"\n.TP\n{', '.join(option.names)}", section)
+                    self.assertIn(option.text, section)
+            # What its command says of all of them is said once.
+            group = verb.name.split()[0]
+            for line in help_text.read([PROGRAMS["facewire"], group])[0].footer:
+                self.assertNotIn(line, section)
+
+    def test_a_sentence_over_several_lines_is_one_paragraph(self):
+        command = help_text.Command("go", "Goes", footer=["It goes on and", "on. And", "ends.", "  And ends."])
+        self.assertIn(".PP\nIt goes on and on. And ends.\n.PP\nAnd ends.", pages.commands([command]))
+
+    def test_a_usage_line_has_what_has_to_be_there(self):
+        page = unformatted((MADE / "facewire.1").read_text())
+        self.assertIn("\nfacewire rig VERB\n", page)
+        self.assertIn("\nfacewire rig import --out text [OPTIONS] CHARACTER\n", page)
+
     def test_every_key_of_the_example_configuration_is_in_its_page(self):
         page = unformatted((MADE / "facewire.toml.5").read_text())
         example = (SOURCES / "app/share/facewire.toml").read_text()
@@ -147,6 +173,26 @@ class Completion(unittest.TestCase):
     def test_bash_takes_what_was_written(self):
         for program in PROGRAMS:
             subprocess.run(["bash", "-n", MADE / f"{program}.bash"], check=True)
+
+    def completed(self, *words):
+        """What bash offers for the last word, where the folder is empty."""
+        script = (f"shopt -s progcomp; source {MADE / 'facewire.bash'}; COMP_WORDS=(\"$@\"); COMP_CWORD=$(($# - 1)); "
+                  "_facewire 2>/dev/null; printf '%s\\n' \"${COMPREPLY[@]}\"")
+        with tempfile.TemporaryDirectory() as folder:
+            said = subprocess.run(["bash", "-c", script, "bash", "facewire", *words], check=True, capture_output=True,
+                                  text=True, cwd=folder)
+        return said.stdout.split()
+
+    def test_bash_knows_verbs_and_the_options_of_each(self):
+        self.assertIn("import", self.completed("rig", ""))
+        self.assertEqual(self.completed("rig", "sh"), ["show"])
+        self.assertEqual(self.completed("rig", "import", "--u"), ["--unit"])
+        self.assertEqual(self.completed("rig", "import", "head.glb", "--unit", "c"), ["cm"])
+        self.assertEqual(self.completed("rig", "check", "--u"), [])
+        self.assertEqual(self.completed("rig", "check", "--p"), ["--profile"])
+        for verb in ("find", "list", "jog", "move", "limits", "set", "reboot", "wizard"):
+            self.assertIn(verb, self.completed("servo", ""))
+            self.assertIn("--help", self.completed("servo", verb, "--"))
 
     def test_quotes_in_descriptions_do_no_harm(self):
         command, _ = options_of(HELP.replace("No waiting", "The performer's own"))

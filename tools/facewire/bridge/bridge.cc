@@ -74,20 +74,20 @@ void Bridge(const Options& options) {
       BridgeOptions{.may_write = !options.listen, .paced = IsStream(options.port)}, Say);
   session->Run([&] { return stop.Raised(); });
 
+  std::string damaged;
+  if (session->link().Damaged() > 0) {
+    damaged = "; " + std::to_string(session->link().Damaged()) + " frames of the line were damaged";
+  }
+  if (session->poses() == 0 && !stop.Raised()) {
+    throw app::BadInput(name + " holds no pose of a rig that it describes" + damaged);
+  }
   std::string summary = std::to_string(session->poses()) + " poses";
   for (const auto& output : outputs) {
     const UdpSender& sender = output->sender();
     summary += "; " + std::to_string(sender.sent()) + " datagrams to " + sender.name();
     if (sender.failed() > 0) summary += ", " + std::to_string(sender.failed()) + " refused";
   }
-  if (session->link().Damaged() > 0) {
-    summary +=
-        "; " + std::to_string(session->link().Damaged()) + " frames of the line were damaged";
-  }
-  Say(summary);
-  if (session->poses() == 0 && !stop.Raised()) {
-    throw app::BadInput(name + " holds no pose of a rig that it describes");
-  }
+  Say(summary + damaged);
 }
 
 }  // namespace

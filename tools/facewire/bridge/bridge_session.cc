@@ -68,6 +68,7 @@ void BridgeSession::Run(const std::function<bool()>& stop) {
 }
 
 void BridgeSession::Take(std::span<const std::byte> bytes) {
+  if (osc_.Notices(bytes, decoder_.stats().frames)) say_(name_ + ": " + kSpeaksOsc);
   for (;;) {
     const auto received = decoder_.Next(bytes);
     if (!received && received.error() == Errc::kNotReady) return;

@@ -14,6 +14,7 @@
 #include "hal/clock.h"
 #include "hal/serial_port.h"
 #include "tools/facewire/bridge/outputs.h"
+#include "tools/facewire/other_protocol.h"
 #include "tools/facewire/rig_question.h"
 
 namespace facewire::tools {
@@ -56,6 +57,7 @@ class BridgeSession {
   wire::Decoder decoder_;
   wire::RigCollector rig_;
   RigQuestion question_;
+  OscSpotter osc_;
   std::optional<wire::arkit::FaceMap> map_;  // of the rig with rig_id_
   std::uint32_t rig_id_ = 0;
   std::optional<Time> captured_;  // of the last pose

@@ -136,7 +136,7 @@ class Reader {
     for (std::size_t at = 0; at < order.size(); ++at) {
       const std::size_t i = order[at];
       PlaceNode(nodes[i], i, places);
-      order.insert(order.end(), children[i].begin(), children[i].end());
+      for (const std::size_t child : children[i]) order.push_back(child);
     }
     if (order.size() < nodes.size()) Bad("nodes", "some of them are their own ancestors");
   }

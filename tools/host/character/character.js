@@ -1,7 +1,7 @@
 import { Bone, BufferAttribute, Color, Group, MathUtils, Mesh, Skeleton, SkinnedMesh } from 'three';
 
 import * as eyes from './eyes.js';
-import { materials } from './materials.js';
+import { SHELL, materials } from './materials.js';
 import { addShapes, mirrored } from './mesh.js';
 import * as mouth from './mouth.js';
 import * as shapes from './shapes.js';
@@ -15,6 +15,9 @@ const PIVOTS = {
   eye_L: EYE, upper_lid_L: EYE, lower_lid_L: EYE,
   eye_R: mirror(EYE), upper_lid_R: mirror(EYE), lower_lid_R: mirror(EYE),
 };
+
+const CASTS = new Set(['shell', 'lid', 'skin', 'brow', 'rubber', 'brass', 'steel']);
+const INSIDE = new Set(['enamel', 'tongue', 'cornea', 'light']);
 
 // Otto: the character of app/share/otto.toml, in centimetres, looking along z. `root` goes into a scene; bones and shapes
 // are set by name.
@@ -82,7 +85,9 @@ export class Character {
 
   #adopt(name, mesh, parent) {
     mesh.name = name;
-    mesh.castShadow = mesh.receiveShadow = true;
+    // What lies deep or is small would only cost time in the shadow map; teeth and tongue shall be seen in the mouth's dark.
+    mesh.castShadow = CASTS.has(mesh.material.name);
+    mesh.receiveShadow = !INSIDE.has(mesh.material.name);
     parent.add(mesh);
     this.meshes.push(mesh);
     mesh.updateMorphTargets();
@@ -145,7 +150,7 @@ export class Character {
   // The one part that two bones share: its upper half hangs on the head, its lower half on the jaw.
   #addMouth() {
     const tone = (hex) => new Color(hex).toArray();
-    const { geometry, jaw } = mouth.mouthSkin(tone(0xdcc5b0), tone(0xb9796a));
+    const { geometry, jaw } = mouth.mouthSkin(tone(SHELL), tone(0xdcc3af), tone(0xb06a5d));
     const fields = { ...shapes.mouthShapes, ...shapes.lipBones };
     addShapes(geometry, Object.fromEntries(Object.entries(fields).map(([n, f]) => [n, (p, i) => f(p, jaw[i])])));
     geometry.setAttribute('skinIndex', new BufferAttribute(new Uint16Array(jaw.flatMap(() => [0, 1, 0, 0])), 4));

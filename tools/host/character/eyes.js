@@ -25,14 +25,14 @@ function cap(degrees, columns, bulge) {
 }
 
 export function eyeball() {
-  const rings = [160, 140, 120, 100, 85, 70, 58, 48, 41, 36, 33.4, 32.4, 31.4, 30, 28, 26, 24, 22, 20, 18, 16, 14, 12.6, 11.8, 11, 8, 4, 0.01];
+  const rings = [130, 100, 80, 64, 48, 41, 36, 33.4, 32.4, 31.4, 30, 28, 26, 24, 22, 20, 18, 16, 14, 12.6, 11.8, 11, 8, 4, 0.01];
   // The iris lies a little sunk behind the cornea.
-  const geometry = cap(rings, 96, (d) => -0.12 * smooth(33, 22, d));
+  const geometry = cap(rings, 64, (d) => -0.12 * smooth(33, 22, d));
   const colors = new Float32Array(3 * geometry.getAttribute('position').count);
   pointsOf(geometry).forEach(([x, y, z], i) => {
     const dx = x - EYE[0], dy = y - EYE[1];
     const d = Math.atan2(Math.hypot(dx, dy), z - EYE[2]) / DEGREES;
-    const spoke = Math.round((Math.atan2(dy, dx) / (2 * Math.PI) + 1) * 96) % 96;
+    const spoke = Math.round((Math.atan2(dy, dx) / (2 * Math.PI) + 1) * 64) % 64;
     const fibre = 0.72 + 0.28 * noise(spoke) + 0.18 * noise(spoke * 7 + Math.round(d));
     const inIris = [mix(0.11, 0.015, smooth(14, 29, d)), mix(0.5, 0.16, smooth(14, 29, d)), mix(0.52, 0.22, smooth(14, 29, d))].map((c) => c * fibre);
     const white = [0.86, 0.85, 0.82].map((c) => c * (1 - 0.25 * smooth(60, 110, d)));
@@ -57,23 +57,23 @@ const WIDE = 84;
 // Towards the corners the edges come together, so that the opening is an almond.
 const edgeAt = (edge, across) => edge * (1 - 0.55 * smooth(25, WIDE, Math.abs(across)));
 
-export const upperLid = () => grid(48, 18, (u, v) => {
+export const upperLid = () => grid(36, 10, (u, v) => {
   const across = mix(-WIDE, WIDE, u);
-  return onLid(LID_RADIUS, across, mix(edgeAt(UPPER_EDGE, across), 128, v));
+  return onLid(LID_RADIUS + 0.03 * smooth(0.3, 0, v), across, mix(edgeAt(UPPER_EDGE, across), 128, v)); // thicker at its edge
 }, { rim: 0.16 });
 
-export const lowerLid = () => grid(48, 14, (u, v) => {
+export const lowerLid = () => grid(36, 8, (u, v) => {
   const across = mix(-WIDE, WIDE, u);
   return onLid(LID_RADIUS - 0.02, across, mix(-120, edgeAt(LOWER_EDGE, across), v));
 }, { rim: 0.16 });
 
 // The rubber along a lid's edge, which draws the eye's line.
 export function lash(edge, radius) {
-  const path = Array.from({ length: 49 }, (_, i) => {
-    const across = mix(-72, 72, i / 48);
+  const path = Array.from({ length: 33 }, (_, i) => {
+    const across = mix(-72, 72, i / 32);
     return onLid(LID_RADIUS + 0.03, across, edgeAt(edge, across));
   });
-  return tube(path, (t) => radius * Math.sin(Math.PI * mix(0.06, 0.94, t)) ** 0.5, { sides: 10 });
+  return tube(path, (t) => radius * Math.sin(Math.PI * mix(0.06, 0.94, t)) ** 0.5, { sides: 6 });
 }
 
 // The hole in the shell, and the metal ring around it. The hole is an ellipse, a little higher outside.
@@ -93,7 +93,7 @@ const onHole = (a) => {
 };
 
 // The membrane from the ring to the lids, which turn behind it.
-export const membrane = () => grid(72, 6, (u, v) => {
+export const membrane = () => grid(48, 4, (u, v) => {
   const a = 2 * Math.PI * u, r = LID_RADIUS + 0.1, tilt = 66 * DEGREES;
   const from = onHole(a), to = [EYE[0] + r * Math.sin(tilt) * Math.cos(a), EYE[1] + r * Math.sin(tilt) * Math.sin(a), EYE[2] + r * Math.cos(tilt)];
   return from.map((c, k) => mix(c, to[k], v) - (k === 2 ? 0.35 * Math.sin(Math.PI * v) : 0));
@@ -101,5 +101,5 @@ export const membrane = () => grid(72, 6, (u, v) => {
 
 export function bezel() {
   const path = Array.from({ length: 72 }, (_, i) => onHole((2 * Math.PI * i) / 72));
-  return tube(path, 0.17, { sides: 12, closed: true });
+  return tube(path, 0.17, { sides: 8, closed: true });
 }

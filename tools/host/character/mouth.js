@@ -11,7 +11,7 @@ const COLUMNS = 112;
 // Rows of the ring: how far from the shells' edge (0) over the rim of the lips (1) to their line (2), and how high over
 // the head's surface; below the line the skin turns inside.
 const ROWS = [
-  [0, -0.45], [0.04, -0.12], [0.2, 0.0], [0.4, 0.05], [0.6, 0.08], [0.8, 0.12], [0.92, 0.18], [1, 0.28], [1.15, 0.42], [1.32, 0.5],
+  [0, -0.4], [0.03, -0.16], [0.09, -0.05], [0.2, 0.0], [0.4, 0.05], [0.6, 0.08], [0.8, 0.12], [0.92, 0.18], [1, 0.28], [1.15, 0.42], [1.32, 0.5],
   [1.5, 0.48], [1.68, 0.38], [1.85, 0.22], [2, 0.04], [2, -0.35], [2, -0.9], [2, -1.5],
 ];
 
@@ -31,8 +31,8 @@ function between(angle, row) {
   return [mix(from[0], to[0], t), mix(from[1], to[1], t)];
 }
 
-// { geometry, jaw: the part of the jaw in each vertex, for its skin weights and shapes }. Colours blend lips into skin.
-export function mouthSkin(skin, lip) {
+// { geometry, jaw: the part of the jaw in each vertex, for its skin weights and shapes }. Colours blend the shells into skin and skin into lips.
+export function mouthSkin(shell, skin, lip) {
   const angles = Array.from({ length: COLUMNS + 1 }, (_, i) => {
     const a = (2 * Math.PI * i) / COLUMNS;
     return a - 0.2 * Math.sin(2 * a); // closer together at the corners
@@ -51,10 +51,10 @@ export function mouthSkin(skin, lip) {
   const places = pointsOf(ring((angle, k) => [angle, k, 0]));
   const colors = new Float32Array(3 * places.length);
   const jaw = places.map(([angle, k], i) => {
-    const row = ROWS[Math.round(k)][0] + (Math.round(k) >= 13 ? 0.5 : 0);
+    const row = ROWS[Math.round(k)][0] + (Math.round(k) >= 14 ? 0.5 : 0);
     const tint = smooth(0.9, 1.06, row);
     const dark = row > 2.2 ? 0.25 : 1 - 0.55 * smooth(1.72, 2.3, row);
-    for (let c = 0; c < 3; ++c) colors[3 * i + c] = mix(skin[c], lip[c], tint) * dark;
+    for (let c = 0; c < 3; ++c) colors[3 * i + c] = mix(mix(shell[c], skin[c], smooth(0.05, 0.75, row)), lip[c], tint) * dark;
     // At the shells' edge half hangs on each; at the lips an ellipse opens, so that it is shared out by their height.
     const s = Math.sin(angle);
     const lips = 0.5 - 0.5 * Math.sign(s) * Math.abs(s) ** 0.62;
@@ -66,14 +66,14 @@ export function mouthSkin(skin, lip) {
 
 // A row of teeth on an arch; `down` is the way their edges look.
 export function teeth(down) {
-  const count = 12, y0 = MOUTH_Y + (down > 0 ? 1.05 : -1.6);
+  const count = 12, y0 = MOUTH_Y + (down > 0 ? 1.05 : -1.5);
   const arch = (t) => [2.75 * Math.sin(t * 1.35), 0, 1.2 + 2.9 * Math.cos(t * 1.35)];
   return grid(count * 8, 6, (u, v) => {
     const t = 2 * u - 1;
     const [x, , z] = arch(t);
     const within = Math.abs(((u * count) % 1) - 0.5) * 2; // 0 in a tooth's middle, 1 between two
     const gap = smooth(0.72, 1, within);
-    const tall = (down > 0 ? 1.4 : 0.95) * (1 - 0.3 * Math.abs(t)) - 0.14 * gap;
+    const tall = (down > 0 ? 1.62 : 0.95) * (1 - 0.3 * Math.abs(t)) - 0.14 * gap;
     const along = down > 0 ? 1 - v : v; // v upwards
     const thick = Math.sin(Math.PI * Math.min(1, 0.25 + 0.75 * along) * 0.98) ** 0.5;
     return [x, y0 - down * tall * along, z - 0.14 * gap + 0.16 * thick];

@@ -4,7 +4,7 @@ import { EYE, JAW_HINGE, MOUTH_Y, bump, mirror, mix, smooth, turned } from './su
 // weight 1. Those of the left side are written down; those of the right are their mirror images.
 
 export const JAW_OPEN = 22; // degrees, as jaw.pitch of the default rig
-const BLINK = 45, WIDE = -12, SQUINT = -16, LOWER_BLINK = -10;
+const BLINK = 45, WIDE = -14, SQUINT = -19, LOWER_BLINK = -10;
 const LOOK = { Up: { pitch: -22 }, Down: { pitch: 25 }, In: { yaw: -28 }, Out: { yaw: 28 } };
 
 export const ARKIT = ['eyeBlink', 'eyeLookDown', 'eyeLookIn', 'eyeLookOut', 'eyeLookUp', 'eyeSquint', 'eyeWide']
@@ -69,7 +69,7 @@ export const mouthShapes = {
   mouthShrugUpper: (p, jaw) => times(upper(p, jaw), [0, 0.45, 0.25]),
   // Brings the lips together again while the jaw is open.
   mouthClose: (p, jaw) => sum(times(-0.94 * lower(p, jaw), opened(p)), times(0.06 * upper(p, jaw), opened(p))),
-  cheekPuff: (p) => [0, 0, 0.25 * lips(p)],
+  cheekPuff: (p) => [0, 0, 0.4 * lips(p)],
 };
 
 // The bones of the lips push on the skin: one cm along their axes.
@@ -82,7 +82,10 @@ export const lipBones = {
   ...pushes('lower_lip', (p, jaw) => lower(p, jaw) * bump(p[0], 0, 0, 0, 2), ['y', 'z']),
 };
 
-export const tongueShapes = { tongueOut: ([, , z]) => [0, -0.9 * smooth(0, 5, z), 3 * smooth(-2, 4, z)] };
+// Up over the lower teeth and lip, out between the lips, and its tip down.
+export const tongueShapes = {
+  tongueOut: ([, , z]) => [0, 1.85 * smooth(-1.5, 2.2, z) - 1.1 * smooth(2.5, 3.6, z), 4 * smooth(-2, 3.6, z)],
+};
 
 // The shell of the face gives a little around the nose.
 export const faceShapes = bothSides({
@@ -91,7 +94,7 @@ export const faceShapes = bothSides({
 
 // The pads on the cheekbones.
 const pad = (offset) => ([x]) => (x > 0 ? offset : [0, 0, 0]);
-const puffed = pad([0.35, -0.1, 0.55]);
+const puffed = pad([0.4, -0.15, 0.6]);
 export const cheekShapes = {
   ...bothSides({ cheekSquint: pad([0, 0.6, 0.25]), mouthSmile: pad([0.12, 0.45, 0.28]) }),
   cheekPuff: (p) => sum(puffed(p), mirror(puffed(mirror(p)))),
@@ -102,14 +105,15 @@ const outer = ([x]) => smooth(1.2, 5.8, x);
 const onLeft = (field) => (p) => (p[0] > 0 ? field(p) : [0, 0, 0]);
 export const browShapes = {
   ...bothSides({
-    browDown: onLeft((p) => mixed(p, [-0.3, -0.85, 0.25], [-0.1, -0.45, 0.1])),
-    browOuterUp: onLeft((p) => mixed(p, [0, 0.15, 0], [0, 1.0, -0.15])),
+    browDown: onLeft((p) => mixed(p, [-0.35, -1.05, 0.3], [-0.1, -0.15, 0.1])),
+    browOuterUp: onLeft((p) => mixed(p, [0, 0.15, 0], [0, 1.15, -0.25])),
   }),
-  browInnerUp: (p) => (p[0] > 0 ? mixed(p, [-0.05, 1.1, 0], [0, 0.1, 0]) : mirror(mixed(mirror(p), [-0.05, 1.1, 0], [0, 0.1, 0]))),
+  browInnerUp: (p) => (p[0] > 0 ? raised(p) : mirror(raised(mirror(p)))),
 };
 function mixed(p, inner, outward) {
   return inner.map((v, k) => mix(v, outward[k], outer(p)));
 }
+const raised = (p) => mixed(p, [-0.05, 1.15, 0.05], [0, -0.15, 0]);
 const zero = [0, 0, 0];
 export const browBones = {
   'brow_inner_L.x': onLeft((p) => mixed(p, [1, 0, 0], zero)),
@@ -125,6 +129,7 @@ const aroundEye = (angles) => (p) => minus(turned(p, EYE, angles), p);
 const left = (name, angles) => ({ [`${name}Left`]: aroundEye(angles) });
 export const upperLidShapes = {
   ...left('eyeBlink', { pitch: BLINK }), ...left('eyeWide', { pitch: WIDE }), ...left('eyeLookDown', { pitch: 10 }),
+  ...left('eyeLookUp', { pitch: -9 }), ...left('eyeSquint', { pitch: 8 }),
 };
 export const lowerLidShapes = { ...left('eyeBlink', { pitch: LOWER_BLINK }), ...left('eyeSquint', { pitch: SQUINT }) };
 export const eyeShapes = Object.assign({}, ...Object.entries(LOOK).map(([way, angles]) => left(`eyeLook${way}`, angles)));

@@ -25,15 +25,15 @@ const inMouth = ([x, y]) => {
 const FACE_TO = 66, TEMPLE_TO = 118, JAW_TO = 92;
 const seamOverForehead = (u) => SEAM_Y - GAP - 0.9 * (2 * u - 1) ** 2; // dips to the temples
 
-export const face = () => plate(150, 110, [-FACE_TO, FACE_TO], [() => MOUTH_Y + 0.12 + GAP, seamOverForehead],
+export const face = () => plate(100, 72, [-FACE_TO, FACE_TO], [() => MOUTH_Y + 0.12 + GAP, seamOverForehead],
   { hole: (p) => (p[2] < 0 ? null : inHole(p) ?? inMouth(p)) });
 
-export const jaw = () => plate(150, 56, [-JAW_TO, JAW_TO], [-10.2, MOUTH_Y + 0.12 - GAP], { hole: (p) => (p[2] < 0 ? null : inMouth(p)) });
+export const jaw = () => plate(92, 28, [-JAW_TO, JAW_TO], [-10.2, MOUTH_Y + 0.12 - GAP], { hole: (p) => (p[2] < 0 ? null : inMouth(p)) });
 
-export const temple = () => plate(36, 60, [FACE_TO + 1.4, TEMPLE_TO], [(u) => mix(-3.6, -2.2, u), (u) => SEAM_Y - 0.9 - GAP - 0.1 * u]);
+export const temple = () => plate(20, 36, [FACE_TO + 1.4, TEMPLE_TO], [(u) => mix(-3.6, -2.2, u), (u) => SEAM_Y - 0.9 - GAP - 0.1 * u]);
 
 // One half of the skull; the seam over its top is GAP wide on each side.
-export const skull = () => grid(72, 44, (u, v) => {
+export const skull = () => grid(40, 22, (u, v) => {
   const azimuth = mix(0, 180, u);
   const low = SEAM_Y + GAP - 0.9 * Math.min(1, azimuth / FACE_TO) ** 2;
   const y = mix(low, TOP - 0.02, Math.sin((v * Math.PI) / 2));
@@ -41,10 +41,10 @@ export const skull = () => grid(72, 44, (u, v) => {
   return [x + GAP, py, z];
 }, { rim: RIM });
 
-export const occiput = () => plate(60, 44, [TEMPLE_TO + 1.4, 360 - TEMPLE_TO - 1.4], [-4.4, SEAM_Y - 0.9 - GAP]);
+export const occiput = () => plate(36, 28, [TEMPLE_TO + 1.4, 360 - TEMPLE_TO - 1.4], [-4.4, SEAM_Y - 0.9 - GAP]);
 
 // What is seen through the seams, and behind teeth and eyes.
-export const core = () => grid(72, 48, (u, v) => {
+export const core = () => grid(40, 20, (u, v) => {
   const y = mix(-7, TOP - 0.5, v);
   const [x, , z] = around(360 * u, y);
   const shrink = mix(0.8, 0.93, smooth(3, 8, y));
@@ -53,7 +53,7 @@ export const core = () => grid(72, 48, (u, v) => {
 
 // A solid of revolution along an ear's axis: profile [[radius, height], ...] from its middle outwards.
 function onEar(profile) {
-  return grid(64, profile.length - 1, (u, v) => {
+  return grid(48, profile.length - 1, (u, v) => {
     const [r, h] = profile[profile.length - 1 - Math.round(v * (profile.length - 1))];
     const a = 2 * Math.PI * u;
     return [7.6 + h, 0.3 + r * Math.sin(-a), -2.6 + r * Math.cos(a)];
@@ -75,7 +75,7 @@ export const screws = () => merged(SCREWS.map(([azimuth, y]) => {
   const at = around(azimuth, y), right = around(azimuth + 1, y), up = around(azimuth, y + 0.1);
   const e1 = unit(sub(right, at)), n = unit(cross(e1, sub(up, at))), e2 = cross(n, e1);
   const profile = [[0.27, -0.1], [0.27, 0.03], [0.24, 0.06], [0.16, 0.07], [0.08, 0.08], [0.01, 0.08]];
-  return grid(24, profile.length - 1, (u, v) => {
+  return grid(14, profile.length - 1, (u, v) => {
     const [r, h] = profile[Math.round(v * (profile.length - 1))], a = 2 * Math.PI * u;
     const [p, q] = [r * Math.cos(a), r * Math.sin(a)];
     const sunk = Math.abs(p * 0.8 + q * 0.6) < 0.07 ? -0.03 : 0;
@@ -90,7 +90,7 @@ export const jawRod = () => tube(Array.from({ length: 13 }, (_, i) => {
 }), 0.32, { sides: 12 });
 
 // A pad on the cheekbone.
-export const cheekPad = () => grid(28, 28, (u, v) => {
+export const cheekPad = () => grid(16, 16, (u, v) => {
   // A square to a disc, so that its edge is one fold.
   const a = 2 * u - 1, b = 2 * v - 1;
   const dx = a * Math.sqrt(1 - (b * b) / 2), dy = b * Math.sqrt(1 - (a * a) / 2);
@@ -109,10 +109,10 @@ export function brow() {
 }
 
 // Bellows, and the rods beside them.
-export const bellows = () => turnedSolid(Array.from({ length: 90 }, (_, i) => {
-  const y = mix(-5.5, -16.1, i / 89);
+export const bellows = () => turnedSolid(Array.from({ length: 88 }, (_, i) => {
+  const y = mix(-5.5, -16.1, i / 87);
   return [3.7 + 0.26 * Math.cos((y * 2 * Math.PI) / 1.05), y];
-}), -3.2);
+}), -3.2, 32);
 export const neckRod = () => tube([[4.7, -15.6, -2.4], [4.7, -13, -2.4], [4.65, -10, -2.6], [4.6, -6, -2.8]], 0.3, { sides: 14 });
-export const collar = () => turnedSolid([[4.0, -15.1], [5.0, -15.2], [5.2, -15.5], [5.2, -16.0], [5.0, -16.3], [4.0, -16.4]], -3.2, 72);
-export const bust = () => turnedSolid([[3.8, -16], [5.0, -16.2], [7.0, -16.6], [9.4, -17.6], [11.2, -19.2], [12.2, -21.2], [12.5, -24.5], [12.1, -25], [0.1, -25]], -3.2, 96);
+export const collar = () => turnedSolid([[4.0, -15.1], [5.0, -15.2], [5.2, -15.5], [5.2, -16.0], [5.0, -16.3], [4.0, -16.4]], -3.2, 56);
+export const bust = () => turnedSolid([[3.8, -16], [5.0, -16.2], [7.0, -16.6], [9.4, -17.6], [11.2, -19.2], [12.2, -21.2], [12.5, -24.5], [12.1, -25], [0.1, -25]], -3.2, 64);

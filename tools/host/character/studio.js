@@ -1,5 +1,5 @@
 import {
-  ACESFilmicToneMapping, BackSide, BoxGeometry, Color, DirectionalLight, Mesh, MeshBasicMaterial, PCFShadowMap,
+  ACESFilmicToneMapping, BackSide, BoxGeometry, Color, DirectionalLight, HemisphereLight, Mesh, MeshBasicMaterial, PCFShadowMap,
   PMREMGenerator, PerspectiveCamera, Scene, SphereGeometry, WebGLRenderer,
 } from 'three';
 
@@ -12,7 +12,7 @@ export class Studio {
   constructor(canvas) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.renderer.toneMapping = ACESFilmicToneMapping;
-    this.renderer.toneMappingExposure = 1.12;
+    this.renderer.toneMappingExposure = 1.04;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.#addLights();
@@ -51,11 +51,13 @@ export class Studio {
     key.shadow.mapSize.set(1024, 1024);
     Object.assign(key.shadow.camera, { left: -15, right: 15, top: 16, bottom: -24, near: 10, far: 110 });
     key.shadow.bias = -0.0006;
-    key.shadow.normalBias = 0.12;
+    key.shadow.normalBias = 0.2;
     key.shadow.radius = 5;
-    light(0xcfe0ff, 0.7, 36, 4, 30);
+    light(0xcfe0ff, 0.8, 36, 4, 30);
     light(0xdfeaff, 2.2, 24, 22, -34);
     light(0xffc9a0, 1.1, -30, 6, -30);
+    // What the bust throws back from below, so that nose and chin do not end in black.
+    this.scene.add(new HemisphereLight(0xdfe6f0, 0xe8c9b0, 0.42));
   }
 
   #softBoxes() {

@@ -24,6 +24,19 @@ function cobs(plain) {
   return out;
 }
 
+// One frame for a line, both delimiters included. `payload`: bytes.
+export function frame(type, sequence, payload) {
+  const inside = new Uint8Array(4 + payload.length + 4);
+  const view = new DataView(inside.buffer);
+  view.setUint8(0, VERSION);
+  view.setUint8(1, type);
+  view.setUint16(2, sequence, true);
+  inside.set(payload, 4);
+  view.setUint32(inside.length - 4, crc32(inside.subarray(0, inside.length - 4)), true);
+  return Uint8Array.from([0, ...cobs(inside), 0]);
+}
+export const nextSequence = (sequence) => (sequence === 0xffff ? 1 : sequence + 1); // 0 says: started anew
+
 // The frames that a host sends: commands, numbered in order.
 export class Encoder {
   #sequence = 0;
@@ -45,18 +58,8 @@ export class Encoder {
       if (!Number.isInteger(item) || item < 0 || item > 0xff) throw new RangeError(`a command's item is 0 to 255, not ${item}`);
       view.setUint8(7, item);
     }
-    return this.#frame(COMMAND, payload);
-  }
-
-  #frame(type, payload) {
-    const inside = new Uint8Array(4 + payload.length + 4);
-    const view = new DataView(inside.buffer);
-    view.setUint8(0, VERSION);
-    view.setUint8(1, type);
-    view.setUint16(2, this.#sequence, true);
-    inside.set(payload, 4);
-    view.setUint32(inside.length - 4, crc32(inside.subarray(0, inside.length - 4)), true);
-    this.#sequence = this.#sequence === 0xffff ? 1 : this.#sequence + 1;
-    return Uint8Array.from([0, ...cobs(inside), 0]);
+    const bytes = frame(COMMAND, this.#sequence, payload);
+    this.#sequence = nextSequence(this.#sequence);
+    return bytes;
   }
 }

@@ -4,6 +4,7 @@
 export const VERSION = 1;
 export const MAX_INSIDE = 1024; // bytes of header, payload and CRC
 const MAX_BONES = 80, MAX_CHANNELS = 240, MAX_NAME = 31, MAX_TEXT = 480, MAX_SERVOS = 64;
+const MAX_LANDMARKS = 478, MAX_LANDMARKS_IN_PART = 32;
 const MIN_PULSE = 2000, MAX_PULSE = 10000; // quarters of a microsecond
 
 export const KINDS = ['parameter', 'position_x', 'position_y', 'position_z', 'pitch', 'yaw', 'roll'];
@@ -13,10 +14,10 @@ const LAST_RECEIVER_STATE = 7;
 
 export const COMMANDS = {
   ping: 1, describe_rig: 2, calibrate_neutral: 3, rest: 4, stop: 5, release: 6, blend_profile: 7, report: 8, reload: 9,
-  move_servo: 10,
+  move_servo: 10, landmarks: 11,
 };
 export const takesItem = (code) => code === COMMANDS.move_servo;
-export const takesValue = (code) => code === COMMANDS.blend_profile || takesItem(code);
+export const takesValue = (code) => code === COMMANDS.blend_profile || code === COMMANDS.landmarks || takesItem(code);
 
 export const RESULTS = ['ok', 'unknown', 'refused', 'no_face', 'failed', 'head_turned', 'head_moved', 'face_moved',
   'eyes_closed', 'mouth_open', 'not_kept'];
@@ -43,6 +44,7 @@ class Reader {
   }
   u8() { return this.take(1, 'getUint8'); }
   u16() { return this.take(2, 'getUint16'); }
+  i16() { return this.take(2, 'getInt16'); }
   u32() { return this.take(4, 'getUint32'); }
   i64() { return this.take(8, 'getBigInt64', 0n); }
   f32() {
@@ -140,6 +142,17 @@ function readServoPulses(r) {
   return { type: 'servo_pulses', setup_id: r.u32(), stop: r.u8() & 1, quarter_us: readPulses(r) };
 }
 
+// `eighth_px` is flat, as drawing likes it: x and y of landmark `first`, then of the next.
+function readLandmarks(r) {
+  const m = {
+    type: 'landmarks', frame_seq: r.u32(), captured_us: r.i64(), width_px: r.u16(), height_px: r.u16(), total: r.u16(),
+    first: r.u16(),
+  };
+  const count = r.u8();
+  r.require(m.first + count <= m.total && m.total <= MAX_LANDMARKS);
+  return { ...m, eighth_px: r.list(2 * count, 2 * MAX_LANDMARKS_IN_PART, () => r.i16()) };
+}
+
 function readReceiverStatus(r) {
   const m = {
     type: 'receiver_status', setup_id: r.u32(), state: r.u8(), capacity: r.u8(), version_major: r.u8(),
@@ -161,7 +174,7 @@ function readCommand(r) {
 export const COMMAND = 0x80; // the type that a host sends
 const READERS = new Map([
   [0x01, readRigHeader], [0x02, readBone], [0x03, readChannel], [0x10, readPose], [0x11, readStatus],
-  [0x12, readAcknowledgement], [0x13, readText], [0x14, readServoSetup], [0x15, readServoPulses],
+  [0x12, readAcknowledgement], [0x13, readText], [0x14, readServoSetup], [0x15, readServoPulses], [0x16, readLandmarks],
   [COMMAND, readCommand], [0x81, readReceiverStatus],
 ]);
 

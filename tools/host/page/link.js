@@ -1,7 +1,9 @@
 import { Decoder } from '../decoder/decoder.js';
 import { Encoder } from '../decoder/encoder.js';
-import { COMMANDS } from '../decoder/message.js';
+import { LandmarkCollector } from '../decoder/landmarks.js';
+import { COMMANDS, RESULTS } from '../decoder/message.js';
 import { RigCollector, valuesOf } from '../decoder/rig.js';
+import { OscSpotter, SPEAKS_OSC } from './other_protocol.js';
 
 export const SILENCE_MS = 500; // without a sound pose the device or the line is gone (core/wire/README.md)
 const RETRY_MS = [500, 1000, 2000, 4000];
@@ -24,12 +26,17 @@ export class Link {
   onRig = () => {};
   onPose = () => {};
   onAcknowledgement = () => {};
+  onLandmarks = () => {}; // a picture of LandmarkCollector
+  landmarkRate = 0; // of how many pictures a second they are wanted
+  landmarksRefused = ''; // 'unknown' or 'refused' when the device will send none
 
   #source = null;
   #generation = 0; // of the source's callbacks: those of an earlier opening are deaf
   #decoder = new Decoder();
   #encoder = new Encoder();
+  #osc = new OscSpotter();
   #collector = new RigCollector();
+  #picture = new LandmarkCollector();
   #earlier = { damaged: 0, lost: 0 }; // of decoders before this one
   #clock;
   #lastPose = -Infinity;
@@ -39,6 +46,7 @@ export class Link {
   #retryAt = Infinity;
   #id = 0;
   #pings = new Map(); // id -> when it was sent
+  #landmarksAsked = 0;
   #best = null; // { roundTrip, offset }: the device's clock minus ours, ms
   #arrivals = []; // [{ at, captured }], each on its own clock, ms
   #delays = [];
@@ -96,7 +104,15 @@ export class Link {
       if (!this.#collector.complete) this.command(COMMANDS.describe_rig);
       this.#pings.clear();
       this.#pings.set(this.command(COMMANDS.ping), now);
+      this.#askLandmarks();
     }
+  }
+
+  // Asked for anew before five seconds have passed; a device that answers no is not asked again on this line.
+  #askLandmarks() {
+    if (this.landmarksRefused || (this.landmarkRate === 0 && this.#landmarksAsked === 0)) return;
+    this.#landmarksAsked = this.landmarkRate;
+    this.command(COMMANDS.landmarks, this.landmarkRate);
   }
 
   async #start() {
@@ -134,10 +150,14 @@ export class Link {
   }
 
   #newStream() {
+    this.#osc = new OscSpotter();
     this.#earlier.damaged += this.#decoder.damaged;
     this.#earlier.lost += this.#decoder.stats.lost;
     this.#decoder = new Decoder();
     this.#encoder = new Encoder();
+    this.#picture = new LandmarkCollector();
+    this.#landmarksAsked = 0;
+    this.landmarksRefused = '';
     this.#best = null;
   }
 
@@ -150,10 +170,12 @@ export class Link {
   }
 
   #take(bytes) {
+    if (this.state === 'waiting' && !this.rig && this.#osc.notices(bytes)) this.problem = SPEAKS_OSC;
     for (const message of this.#decoder.push(bytes)) {
       if (message.type === 'pose') this.#takePose(message);
       else if (message.type === 'status') this.status = message;
       else if (message.type === 'acknowledgement') this.#takeAcknowledgement(message);
+      else if (message.type === 'landmarks') this.#takeLandmarks(message);
       else if (this.#collector.add(message)) this.#takeRig();
     }
   }
@@ -161,6 +183,7 @@ export class Link {
   #takeRig() {
     if (!this.#collector.complete || this.rig?.rig_id === this.#collector.rigId) return;
     this.rig = this.#collector.rig;
+    this.problem = '';
     this.values = null;
     this.onRig(this.rig);
   }
@@ -184,6 +207,11 @@ export class Link {
     this.onPose(pose, values);
   }
 
+  #takeLandmarks(part) {
+    const picture = this.#picture.add(part);
+    if (picture) this.onLandmarks(picture);
+  }
+
   #takeAcknowledgement(message) {
     const sent = this.#pings.get(message.id);
     if (message.code === COMMANDS.ping && sent !== undefined) {
@@ -192,6 +220,7 @@ export class Link {
       if (!this.#best) this.#delays = [];
       if (!this.#best || roundTrip <= this.#best.roundTrip) this.#best = { roundTrip, offset };
     }
+    if (message.code === COMMANDS.landmarks && message.result !== 0) this.landmarksRefused = RESULTS[message.result] ?? 'refused';
     this.onAcknowledgement(message);
   }
 }

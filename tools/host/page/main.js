@@ -3,9 +3,12 @@ import { Driver } from '../character/driver.js';
 import { Studio } from '../character/studio.js';
 import { COMMANDS, RESULTS, STATES, succeeded } from '../decoder/message.js';
 import franck from './franck.bin';
+import { Performer } from './landmarks.js';
 import { Link } from './link.js';
+import { Pace } from './pace.js';
 import { Plot } from './plot.js';
 import { Recording, Serial, Socket } from './sources.js';
+import { ServiceStatus } from './status.js';
 import { Values } from './values.js';
 
 // The page: one link, one character, and what is to be seen of both.
@@ -17,6 +20,8 @@ const otto = new Character();
 const link = new Link();
 const values = new Values($('values'));
 const plot = new Plot($('plot'), $('legend'));
+const performer = new Performer($('landmarks'), $('performer-note'));
+const service = new ServiceStatus($('service'));
 const recording = new Recording(franck);
 
 let character = null;
@@ -50,6 +55,7 @@ link.onRig = () => {
   choosePlotted();
 };
 link.onPose = (pose, now) => plot.add(performance.now(), now);
+link.onLandmarks = (picture) => performer.show(picture);
 function choosePlotted() {
   if (link.rig) plot.choose(link.rig.channels, values.plotted);
 }
@@ -112,20 +118,32 @@ function tell() {
   for (const [id, Kind] of [['play', Recording], ['serial', Serial], ['socket', Socket]]) {
     $(id).setAttribute('aria-pressed', String(link.source instanceof Kind));
   }
+  link.landmarkRate = $('performer').open ? Performer.PICTURES : 0;
+  const pose = ['live', 'silent'].includes(link.state) ? link.pose : null;
+  performer.say(pose, !live, link.landmarksRefused && 'this device sends no landmarks');
+  service.tell(link.status, pose);
+  $('hint').hidden = link.source !== recording;
+  if (document.hidden) return;
   if (link.values) values.update(link.values);
   plot.draw(performance.now());
 }
 
+const pace = new Pace();
+let frameBefore = performance.now(), drewBefore = false;
 function frame(now) {
   move(now);
+  if (pace.frame(now, now - frameBefore, drewBefore && stale)) resize();
+  frameBefore = now;
+  drewBefore = stale;
   if (stale) {
     studio.render();
     stale = false;
   }
+  performer.draw(now);
   requestAnimationFrame(frame);
 }
 function resize() {
-  studio.resize(view.clientWidth, view.clientHeight, Math.min(2, window.devicePixelRatio || 1));
+  studio.resize(view.clientWidth, view.clientHeight, pace.scale * Math.min(2, window.devicePixelRatio || 1));
   stale = true;
 }
 new ResizeObserver(resize).observe(view);
@@ -200,9 +218,15 @@ link.onAcknowledgement = ({ id, result }) => {
 
 const themes = window.matchMedia('(prefers-color-scheme: light)');
 const theme = (light) => { document.documentElement.dataset.theme = light ? 'light' : 'dark'; };
-theme(themes.matches);
-themes.onchange = () => theme(themes.matches);
-$('theme').onclick = () => theme(document.documentElement.dataset.theme !== 'light');
+// What was chosen stays; a page opened as a file may have no memory.
+const memory = (use) => { try { return use(localStorage); } catch { return null; } };
+const chosen = memory((m) => m.getItem('theme'));
+theme(chosen ? chosen === 'light' : themes.matches);
+themes.onchange = () => { if (!memory((m) => m.getItem('theme'))) theme(themes.matches); };
+$('theme').onclick = () => {
+  theme(document.documentElement.dataset.theme !== 'light');
+  memory((m) => m.setItem('theme', document.documentElement.dataset.theme));
+};
 
 // --- a page that comes from `facewire serve` follows its line; any other begins with the recording
 

@@ -1,6 +1,10 @@
 const SECONDS = 10;
 const COLOURS = ['#35c7c2', '#d9a066', '#e2747e', '#8fa8ff', '#9acb6b', '#c792e0', '#e6c84f', '#6fb7e9'];
 
+// What follows a number of a channel, by its kind.
+export const UNITS = { parameter: '', position_x: ' cm', position_y: ' cm', position_z: ' cm', pitch: '°', yaw: '°', roll: '°' };
+export const numberOf = (value, kind) => value.toFixed(UNITS[kind] === '°' ? 1 : 2).replace(/^-(0\.0+)$/, '$1') + UNITS[kind];
+
 // The last ten seconds of some channels, each over its own range; gaps where nothing came.
 export class Plot {
   #samples = []; // [ms, values]
@@ -14,10 +18,13 @@ export class Plot {
   choose(channels, names) {
     this.#lines = channels.flatMap((c, index) => (names.has(c.name) ? [{ ...c, index }] : []))
       .map((line, i) => ({ ...line, colour: COLOURS[i % COLOURS.length] }));
-    this.legend.replaceChildren(...this.#lines.map(({ name, colour }) => {
-      const item = document.createElement('li'), mark = document.createElement('i');
-      mark.style.background = colour;
-      item.append(mark, name);
+    this.legend.replaceChildren(...this.#lines.map((line) => {
+      const [item, mark, now, range] = ['li', 'i', 'output', 'small'].map((tag) => document.createElement(tag));
+      mark.style.background = line.colour;
+      range.textContent = `${line.min}…${line.max}${UNITS[line.kind]}`;
+      range.title = 'what the plot is high';
+      line.now = now;
+      item.append(mark, line.name, now, range);
       return item;
     }));
   }
@@ -41,16 +48,24 @@ export class Plot {
     g.clearRect(0, 0, width, height);
     const style = getComputedStyle(canvas);
     g.fillStyle = style.getPropertyValue('--edge');
-    for (let s = 1; s < SECONDS; ++s) g.fillRect((width * s) / SECONDS, 0, 1, height);
+    for (let s = 1; s < SECONDS; ++s) g.fillRect(Math.round((width * s) / SECONDS), 0, 1, height);
+    g.fillStyle = style.getPropertyValue('--faint');
+    g.font = '11px system-ui, sans-serif';
+    g.textAlign = 'left';
+    g.fillText(`${SECONDS} s ago`, 6, height - 5);
+    g.textAlign = 'right';
+    g.fillText('now', width - 6, height - 5);
     g.lineWidth = 1.6;
     g.lineJoin = 'round';
-    for (const { index, min, max, colour } of this.#lines) {
+    const last = this.#samples.at(-1)?.[1];
+    for (const { index, min, max, colour, kind, now: output } of this.#lines) {
+      if (last) output.value = numberOf(last[index], kind);
       g.strokeStyle = colour;
       g.beginPath();
       let before = -Infinity;
       for (const [at, values] of this.#samples) {
         const x = width * (1 - (now - at) / (1000 * SECONDS));
-        const y = 6 + (height - 12) * (1 - (values[index] - min) / (max - min || 1));
+        const y = 6 + (height - 28) * (1 - (values[index] - min) / (max - min || 1));
         if (at - before > 500) g.moveTo(x, y);
         else g.lineTo(x, y);
         before = at;

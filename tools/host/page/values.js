@@ -1,3 +1,5 @@
+import { numberOf } from './plot.js';
+
 // The list of the rig's channels: a bar and a number each, a tick for the plot, a gain for the character.
 
 const GROUPS = [
@@ -11,7 +13,6 @@ const make = (tag, attributes = {}, ...children) => {
   element.append(...children);
   return element;
 };
-const UNITS = { parameter: '', position_x: ' cm', position_y: ' cm', position_z: ' cm', pitch: '°', yaw: '°', roll: '°' };
 
 export class Values {
   gains = new Map(); // channel name -> factor of what it is away from neutral
@@ -63,8 +64,9 @@ export class Values {
     };
     gain.oninput();
     const span = max - min || 1;
-    this.#rows[i] = { fill, bar, number, from: (neutral - min) / span, span, unit: UNITS[channel.kind] };
-    return make('div', { className: 'value' }, tick, make('span', { textContent: name, title: name }), bar, number, gain);
+    this.#rows[i] = { fill, bar, number, from: (neutral - min) / span, span, kind: channel.kind };
+    const label = make('span', { textContent: name.replaceAll('_', ' ').replace('.', ' · '), title: name });
+    return make('div', { className: 'value' }, tick, label, bar, number, gain);
   }
 
   // What the character gets: each value's distance from neutral times its gain, within its range.
@@ -83,7 +85,7 @@ export class Values {
       const at = (value - this.#channels[i].min) / row.span;
       const low = Math.min(at, row.from);
       row.fill.style.transform = `translateX(${100 * low}%) scaleX(${Math.abs(at - row.from)})`;
-      row.number.value = value.toFixed(row.unit === '°' ? 1 : 2) + row.unit;
+      row.number.value = numberOf(value, row.kind);
       row.bar.setAttribute('aria-valuenow', value.toFixed(2));
     });
   }

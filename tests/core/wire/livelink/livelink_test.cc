@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <string>
+#include <vector>
 
 #include "tests/core/wire/hex.h"
 
@@ -32,17 +34,34 @@ TEST(LiveLink, AFaceIsItsShapesThenYawPitchRollOfHeadAndEyes) {
   arkit::Face face;
   face.shapes[0] = 1;
   face.shapes[51] = 0.5F;
-  face.neck = {.pitch_deg = 45, .yaw_deg = 90, .roll_deg = 22.5F};
-  face.left_eye = {.pitch_deg = -45, .yaw_deg = -90, .roll_deg = 0};
-  face.right_eye = {.pitch_deg = 90, .yaw_deg = 45, .roll_deg = -22.5F};
+  face.neck = {.pitch_deg = 14.323945F, .yaw_deg = 28.64789F, .roll_deg = 7.1619725F};
+  face.left_eye = {.pitch_deg = -14.323945F, .yaw_deg = -28.64789F, .roll_deg = 0};
+  face.right_eye = {.pitch_deg = 28.64789F, .yaw_deg = 14.323945F, .roll_deg = -7.1619725F};
   std::string expected = std::string(kHeader) + " 3D 3F 80 00 00";
   for (int i = 1; i < 51; ++i) expected += " 00 00 00 00";
   expected +=
       " 3F 00 00 00"
-      " BF 00 00 00 3E 80 00 00 BE 00 00 00"   // head: -1/2, 1/4, -1/8
+      " BF 00 00 00 3E 80 00 00 BE 00 00 00"   // head: -1/2, 1/4, -1/8 radians
       " 3F 00 00 00 BE 80 00 00 80 00 00 00"   // left eye: 1/2, -1/4, -0
       " BE 80 00 00 3F 00 00 00 3E 00 00 00";  // right eye: -1/4, 1/2, 1/8
   EXPECT_EQ(c.Packet(&face), expected);
+}
+
+// What the app itself sends when an eye looks as far as it can, by a recording (README.md).
+TEST(LiveLink, TurnsAreRadiansPositiveToTheOwnRightAndDown) {
+  Context c;
+  arkit::Face face;
+  face.left_eye = {.pitch_deg = 22.3F, .yaw_deg = -34.8F};  // down, and to the own right
+  const std::vector<std::byte> packet = FromHex(c.Packet(&face));
+  const auto value = [&](std::size_t from_end) {
+    std::uint32_t word = 0;
+    for (const std::byte b : std::span(packet).last(4 * from_end).first(4)) {
+      word = word << 8U | std::to_integer<std::uint32_t>(b);
+    }
+    return std::bit_cast<float>(word);
+  };
+  EXPECT_NEAR(value(6), 0.607F, 0.001F);  // LeftEyeYaw
+  EXPECT_NEAR(value(5), 0.389F, 0.001F);  // LeftEyePitch
 }
 
 TEST(LiveLink, TimeIsFramesOfASixtiethAndAPartOfOne) {

@@ -5,7 +5,6 @@
 #include <array>
 #include <string_view>
 
-#include "core/wire/osc/slip.h"
 #include "tests/core/wire/hex.h"
 
 namespace facewire::wire::osc {
@@ -78,20 +77,6 @@ TEST(Osc, RefusesWhatNoReceiverCouldRead) {
   EXPECT_EQ(c.packet.Message("/b").error(), Errc::kInvalidArgument);  // a second one needs a bundle
   EXPECT_EQ(c.packet.Bundle().error(), Errc::kInvalidArgument);
   EXPECT_EQ(c.packet.bytes().size(), 8U);
-}
-
-TEST(Slip, HasEndsOnBothSidesAndEscapesItsOwnBytes) {
-  const auto packet = FromHex("00 C0 01 DB DC DD FF");
-  std::array<std::byte, MaxSlipBytes(7)> out{};
-  EXPECT_EQ(Hex(*Slip(packet, out)), "C0 00 DB DC 01 DB DD DC DD FF C0");
-}
-
-TEST(Slip, FitsExactlyAndNotInOneByteLess) {
-  const auto packet = FromHex("C0 DB");
-  std::array<std::byte, MaxSlipBytes(2)> out{};
-  EXPECT_EQ(Slip(packet, out)->size(), out.size());
-  EXPECT_EQ(Slip(packet, std::span(out).first(5)).error(), Errc::kFull);
-  EXPECT_EQ(Slip({}, out).error(), Errc::kInvalidArgument);
 }
 
 }  // namespace

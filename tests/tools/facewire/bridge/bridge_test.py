@@ -62,10 +62,10 @@ def of_unity(q):
 
 
 def of_unreal(yaw, pitch, roll):
-    """The same for Live Link's half turns: Unreal's rotation matrix, which has vectors as rows, and
+    """The same for Live Link's radians: Unreal's rotation matrix, which has vectors as rows, and
     Epic's axes (-z, x, y)."""
-    p, y, r = pitch * math.pi, yaw * math.pi, roll * math.pi
-    sp, cp, sy, cy, sr, cr = math.sin(p), math.cos(p), math.sin(y), math.cos(y), math.sin(r), math.cos(r)
+    sp, cp, sy, cy = math.sin(pitch), math.cos(pitch), math.sin(yaw), math.cos(yaw)
+    sr, cr = math.sin(roll), math.cos(roll)
     rows = [[cp * cy, cp * sy, sp],
             [sr * sp * cy - cr * sy, sr * sp * sy + cr * cy, -sr * cp],
             [-(cr * sp * cy + sr * sy), cy * sr - cr * sp * sy, cr * cp]]
@@ -280,6 +280,15 @@ class Program(Checks):
         for number in range(10 if receiver else 0):
             self.near(receiver.frame()["values"]["JawOpen"], number / 10, 1e-4, "jawOpen")
 
+    def test_a_line_that_speaks_osc_is_named_once(self):
+        bundle = b"\xc0#bundle\0" + bytes(7) + b"\1" + b"\xc0"
+        with tempfile.NamedTemporaryFile(prefix="bridge_test.") as file:
+            file.write(b"noise" + bundle * 20)
+            file.flush()
+            done = subprocess.run([FACEWIRE, "bridge", file.name, "--vmc", "127.0.0.1:9"], capture_output=True, text=True)
+        self.assertEqual(done.stdout.count("this line speaks OSC; for this program set [host] protocol = \"native\""), 1)
+        self.assertEqual(done.returncode, 2)
+
     def test_a_receiver_that_is_not_there_yet_is_no_error(self):
         bridge = Bridge(self, full_rig(), host="localhost")
         bridge.livelink.socket.close()
@@ -302,6 +311,14 @@ class Program(Checks):
             self.assertEqual(done.returncode, 2, arguments)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
             self.assertIn(part, done.stderr)
+
+    def test_a_file_that_is_no_recording_is_said_in_one_line_alone(self):
+        with tempfile.NamedTemporaryFile("w") as file:
+            file.write("this is text")
+            file.flush()
+            done = subprocess.run([FACEWIRE, "bridge", file.name, "--vmc", "127.0.0.1"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertEqual(done.stderr, f"facewire: {file.name} holds no pose of a rig that it describes\n")
 
 
 if __name__ == "__main__":

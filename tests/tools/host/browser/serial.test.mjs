@@ -1,0 +1,107 @@
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+
+import { Decoder } from '../../../../tools/host/decoder/decoder.js';
+import { Browser, recording } from './harness.mjs';
+
+// Web Serial, with a stand-in for the browser's own: captured bytes of a real service, a cable that is pulled, a user who
+// changes their mind.
+
+let browser, page;
+before(async () => {
+  browser = await Browser.start();
+});
+after(() => browser?.close());
+
+async function open() {
+  await page?.close();
+  page = await browser.open(undefined, { board: true });
+}
+const plays = (bytes) => page.page.evaluate((b) => board.play(b), [...bytes]);
+// The captured stream up to its n-th pose, by its parts.
+function upTo(n) {
+  const bytes = recording(), decoder = new Decoder();
+  let poses = 0, at = 0;
+  for (; at < bytes.length && poses < n; ++at) if (decoder.push(bytes.subarray(at, at + 1))[0]?.type === 'pose') ++poses;
+  return bytes.subarray(0, at);
+}
+
+test('captured bytes make the page show the rig, its values and how the line fares', async () => {
+  await open();
+  await page.press('serial');
+  await plays(upTo(200));
+  await page.shows('state-text', /^(tracking|nothing comes)$/);
+  await page.shows('rate', /^\d|–/);
+  assert.equal(await page.page.locator('[role=meter]').count(), 82);
+  assert.equal(await page.figure('lost'), 0);
+  assert.equal(await page.figure('damaged'), 0);
+  const decoded = new Decoder().push(upTo(200)).filter((m) => m.type === 'pose').at(-1);
+  assert.ok(decoded.steps.length === 82);
+});
+
+test('damaged bytes are counted and lose no more than their frames', async () => {
+  await open();
+  await page.press('serial');
+  const bytes = upTo(200).slice();
+  for (const at of [0.5, 0.6, 0.7]) bytes[Math.round(at * bytes.length)] ^= 0x55;
+  await plays(bytes);
+  await page.shows('damaged', /^3$/);
+  await page.shows('state-text', /^(tracking|nothing comes)$/);
+});
+
+test('buttons reach the board, and its answers the page', async () => {
+  await open();
+  await page.page.evaluate(() => {
+    board.setRig({ name: 'small', bones: [], channels: [{ name: 'jawOpen', kind: 'parameter', neutral: 0, min: 0, max: 1 }] });
+    board.results = { calibrate_neutral: 3 };
+  });
+  for (const id of ['calibrate', 'rest', 'stop', 'release']) assert.ok(await page.page.locator(`#${id}`).isDisabled(), id);
+  await page.press('serial');
+  await page.shows('state-text', /^tracking$/);
+  for (const [id, answer] of [['calibrate', 'Calibrate: no face'], ['rest', 'Neutral: done'], ['stop', 'Stop: done'], ['release', 'Release: done']]) {
+    await page.press(id);
+    await page.shows('answer', `^${answer}$`);
+  }
+  assert.deepEqual(await page.page.evaluate(() => board.commands), ['calibrate_neutral', 'rest', 'stop', 'release']);
+});
+
+test('latency and frame rate are read while the board sends 25 poses a second', async () => {
+  await page.shows('rate', /^2[3-7]$/);
+  await page.shows('latency', /^\d+$/);
+  assert.ok((await page.figure('latency')) < 1000);
+});
+
+test('a cable that is pulled is said, and taken up again when it is back', async () => {
+  await page.page.evaluate(() => {
+    board.set({ jawOpen: 1 });
+    board.pull();
+  });
+  await page.shows('state-text', /^line lost, trying again$/);
+  await page.shows('notice', /Trying again\.$/);
+  await page.page.evaluate(() => { board.plugged = true; });
+  await page.shows('state-text', /^tracking$/);
+  assert.equal(await page.page.evaluate(() => board.openings), 2);
+  assert.ok(await page.page.locator('#notice').isHidden());
+});
+
+test('a user who picks no port keeps what plays', async () => {
+  await open();
+  await page.page.evaluate(() => { board.chosen = false; });
+  await page.press('serial');
+  await page.shows('state-text', /^recording/);
+  assert.ok(await page.page.locator('#notice').isHidden());
+});
+
+test('a port that another program has is said in words, and tried again', async () => {
+  await open();
+  await page.page.evaluate(() => { board.refused = new DOMException('Failed to open serial port.', 'NetworkError'); });
+  await page.press('serial');
+  await page.shows('notice', /^Failed to open serial port/);
+  await page.page.evaluate(() => {
+    board.setRig({ name: 'small', bones: [], channels: [{ name: 'jawOpen', kind: 'parameter', neutral: 0, min: 0, max: 1 }] });
+    board.refused = null;
+  });
+  await page.shows('state-text', /^tracking$/);
+});
+
+test('nothing went wrong on the way', () => assert.deepEqual(page.complaints, []));
