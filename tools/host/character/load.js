@@ -1,3 +1,4 @@
+/*! The meshopt decoder, of meshoptimizer: Copyright (C) 2016-2026, by Arseny Kapoulkine, MIT License */
 import { LoadingManager } from 'three';
 import { VRMLoaderPlugin } from '@pixiv/three-vrm';
 import { MeshoptDecoder } from 'three/examples/jsm/libs/meshopt_decoder.module.js';

@@ -2,6 +2,7 @@ import { Character } from '../character/character.js';
 import { Driver } from '../character/driver.js';
 import { Studio } from '../character/studio.js';
 import { COMMANDS, RESULTS, STATES, succeeded } from '../decoder/message.js';
+import { Cast } from './cast.js';
 import franck from './franck.bin';
 import { Performer } from './landmarks.js';
 import { Link } from './link.js';
@@ -34,6 +35,7 @@ let stale = true; // the picture does not show what it should
 // From now on `next` moves in the other's place, from neutral.
 function show(next) {
   if (character) studio.scene.remove(character.root);
+  character?.dispose?.();
   character = next;
   studio.scene.add(character.root);
   drive();
@@ -42,9 +44,11 @@ function drive() {
   character.neutral();
   driver = link.rig ? new Driver(character, link.rig) : null;
   shown = link.rig ? Float32Array.from(link.rig.channels, (c) => c.neutral) : null;
-  if (driver) values.show(link.rig, driver.unused);
+  if (driver) values.show(link.rig);
+  cast.tell(character, driver);
   stale = true;
 }
+const cast = new Cast(otto, show);
 show(otto);
 
 // --- what comes over the line
@@ -132,6 +136,7 @@ const pace = new Pace();
 let frameBefore = performance.now(), drewBefore = false;
 function frame(now) {
   move(now);
+  if (character.update?.(Math.min(100, now - frameBefore) / 1000)) stale = true;
   if (pace.frame(now, now - frameBefore, drewBefore && stale)) resize();
   frameBefore = now;
   drewBefore = stale;
