@@ -23,6 +23,9 @@ test('the page runs as a file: a classic script, no modules to load', () => {
   assert.doesNotMatch(read('page.js').toString().slice(0, 2000), /^\s*(import|export)\b/m);
 });
 
-test('the licence of what is built in is in it', () => {
-  assert.match(read('page.js').toString(), /@license[\s\S]{0,80}Three\.js Authors[\s\S]{0,60}MIT/);
+test('the licences of what is built in are in it', () => {
+  const script = read('page.js').toString();
+  assert.match(script, /@license[\s\S]{0,80}Three\.js Authors[\s\S]{0,60}MIT/);
+  assert.match(script, /@pixiv\/three-vrm[\s\S]{0,120}pixiv Inc\.[\s\S]{0,80}MIT License/);
+  assert.match(script, /meshoptimizer[\s\S]{0,60}Arseny Kapoulkine[\s\S]{0,20}MIT License/);
 });

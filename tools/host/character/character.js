@@ -22,6 +22,7 @@ const INSIDE = new Set(['enamel', 'tongue', 'cornea', 'light']);
 // Otto: the character of app/share/otto.toml, in centimetres, looking along z. `root` goes into a scene; bones and shapes
 // are set by name.
 export class Character {
+  name = 'Otto';
   root = new Group();
   bones = new Map(); // name -> Bone
   meshes = []; // in the order of their names
@@ -37,6 +38,9 @@ export class Character {
   }
 
   get shapeNames() { return [...this.#shapes.keys()]; }
+
+  // Its shapes that nothing moves, where a driver has `moved`.
+  unmovedBy(moved) { return this.shapeNames.filter((name) => !moved.has(name)); }
 
   // weight: of an ARKit shape 0..1; of a bone's push, cm.
   setShape(name, weight) {

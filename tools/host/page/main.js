@@ -2,6 +2,7 @@ import { Character } from '../character/character.js';
 import { Driver } from '../character/driver.js';
 import { Studio } from '../character/studio.js';
 import { COMMANDS, RESULTS, STATES, succeeded } from '../decoder/message.js';
+import { Cast } from './cast.js';
 import franck from './franck.bin';
 import { Performer } from './landmarks.js';
 import { Link } from './link.js';
@@ -18,7 +19,6 @@ const $ = (id) => document.getElementById(id);
 const view = $('view');
 const studio = new Studio(view);
 const otto = new Character();
-studio.scene.add(otto.root);
 const link = new Link();
 const values = new Values($('values'));
 const plot = new Plot($('plot'), $('legend'));
@@ -26,17 +26,36 @@ const performer = new Performer($('landmarks'), $('performer-note'));
 const service = new ServiceStatus($('service'));
 const recording = new Recording(franck);
 
+let character = null;
 let driver = null;
 let shown = null; // the values that the character stands at
 let stale = true; // the picture does not show what it should
 
+// --- who moves
+
+// From now on `next` moves in the other's place, from neutral.
+function show(next) {
+  if (character) studio.scene.remove(character.root);
+  character?.dispose?.();
+  character = next;
+  studio.scene.add(character.root);
+  drive();
+}
+function drive() {
+  character.neutral();
+  driver = link.rig ? new Driver(character, link.rig) : null;
+  shown = link.rig ? Float32Array.from(link.rig.channels, (c) => c.neutral) : null;
+  if (driver) values.show(link.rig);
+  cast.tell(character, driver);
+  stale = true;
+}
+const cast = new Cast(otto, show);
+show(otto);
+
 // --- what comes over the line
 
-link.onRig = (rig) => {
-  otto.neutral();
-  driver = new Driver(otto, rig);
-  shown = Float32Array.from(rig.channels, (c) => c.neutral);
-  values.show(rig, driver.unused);
+link.onRig = () => {
+  drive();
   plot.clear();
   choosePlotted();
 };
@@ -118,6 +137,7 @@ const pace = options.get('pixels') === 'all' ? null : new Pace(); // for picture
 let frameBefore = performance.now(), drewBefore = false;
 function frame(now) {
   move(now);
+  if (character.update?.(Math.min(100, now - frameBefore) / 1000)) stale = true;
   if (pace?.frame(now, now - frameBefore, drewBefore && stale)) resize();
   frameBefore = now;
   drewBefore = stale;

@@ -24,7 +24,7 @@ export class Values {
 
   constructor(element) { this.#element = element; }
 
-  show(rig, unused) {
+  show(rig) {
     this.#channels = rig.channels;
     this.#rows = [];
     const groups = new Map(GROUPS.map(([title]) => [title, []]));
@@ -35,9 +35,6 @@ export class Values {
     const filled = [...groups].filter(([, rows]) => rows.length > 0);
     this.#element.replaceChildren(...filled.map(([title, rows], i) =>
       make('details', { open: i < 2 }, make('summary', { textContent: `${title} (${rows.length})` }), ...rows)));
-    if (unused.length > 0) {
-      this.#element.append(make('p', { className: 'other', textContent: `This character has nothing for: ${unused.join(', ')}` }));
-    }
   }
 
   #row(channel, i) {
