@@ -85,9 +85,9 @@ export class Page {
       look();
     }));
   }
-  // The picture of an element, as bytes of a PNG.
+  // The picture of an element, or with null of all that the window shows, as bytes of a PNG.
   async shot(name, selector = '#view') {
-    const png = await this.page.locator(selector).screenshot({ timeout: PATIENCE_MS, animations: 'disabled' });
+    const png = await (selector ? this.page.locator(selector) : this.page).screenshot({ timeout: PATIENCE_MS, animations: 'disabled' });
     if (process.env.FACEWIRE_SHOTS) writeFileSync(join(process.env.FACEWIRE_SHOTS, `${String(++shots).padStart(2, '0')}-${name}.png`), png);
     return png;
   }
