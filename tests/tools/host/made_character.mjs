@@ -1,7 +1,7 @@
 // A character file made of code, small and in metres: a head of a person's size on as many bones as are asked for, with morph
 // targets that each move something. Facing -z where `front` is -1, as VRM 0 does.
 
-const EYES_Y = 1.6, RINGS = 20, SECTORS = 28, RADII = [0.075, 0.11, 0.09], CENTRE = [0, 1.57, 0];
+const EYES_Y = 1.6, RINGS = 36, SECTORS = 48, RADII = [0.075, 0.11, 0.09], CENTRE = [0, 1.57, 0];
 
 // Where on the face a shape of that name moves something, and which way; left is where x is greater.
 function region(name) {

@@ -1,106 +1,143 @@
 #include "tools/facewire/rig/bone_names.h"
 
 #include <algorithm>
-#include <initializer_list>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "tools/facewire/rig/name_tables.h"
 
 namespace facewire::tools::rig {
 namespace {
 
-bool Any(const PartName& part, std::initializer_list<std::string_view> words) {
-  return std::ranges::any_of(words, [&](std::string_view word) { return part.Has(word); });
+using Json = nlohmann::ordered_json;
+using Strings = std::vector<std::string>;
+
+struct Name {
+  PartName part;
+  std::string joined;
+};
+
+// What is looked for in a name; one that is there is enough.
+struct Pattern {
+  Strings words;  // of the name
+  Strings parts;  // somewhere in the joined name
+  Strings names;  // the joined name
+  Strings last;   // the last word
+
+  bool Fits(const Name& name) const {
+    const auto is = [](const std::string& text) {
+      return [&text](const std::string& other) { return text == other; };
+    };
+    const auto& own = name.part.words;
+    return std::ranges::any_of(words, [&](const std::string& w) { return name.part.Has(w); }) ||
+           std::ranges::any_of(
+               parts, [&](const std::string& p) { return name.joined.find(p) != p.npos; }) ||
+           std::ranges::any_of(names, is(name.joined)) ||
+           (!own.empty() && std::ranges::any_of(last, is(own.back())));
+  }
+};
+
+struct Rule {
+  Pattern pattern;
+  std::optional<Pattern> also;
+  std::optional<bool> sided;
+  Strings heights;  // empty: any
+  std::size_t most_words = std::numeric_limits<std::size_t>::max();
+  std::optional<BoneRole> role;  // of a bone of no side
+};
+
+struct Tables {
+  Pattern helpers;
+  std::vector<std::pair<std::string, Pattern>> heights;
+  std::vector<Rule> rules;
+  std::map<std::string, BoneRole, std::less<>> humanoid;
+};
+
+BoneRole RoleOf(const Json& row) {
+  static const std::map<std::string, BoneKind> kKinds = {{"head", BoneKind::kHead},
+                                                         {"neck", BoneKind::kNeck},
+                                                         {"jaw", BoneKind::kJaw},
+                                                         {"eye", BoneKind::kEye},
+                                                         {"upper_lid", BoneKind::kUpperLid},
+                                                         {"lower_lid", BoneKind::kLowerLid},
+                                                         {"skin", BoneKind::kSkin}};
+  return {kKinds.at(row.at("kind")), SideNamed(row.value("side", "")), row.value("landmark", "")};
 }
 
-bool Contains(const std::string& joined, std::string_view text) {
-  return joined.find(text) != std::string::npos;
+Pattern PatternOf(const Json& row) {
+  return {row.value("words", Strings()), row.value("parts", Strings()),
+          row.value("names", Strings()), row.value("last", Strings())};
 }
 
-std::string Sided(Side side, std::string_view landmark) {
-  return (side == Side::kLeft ? "left_" : "right_") + std::string(landmark);
+Tables ReadTables() {
+  const Json json = BoneTable();
+  Tables tables;
+  tables.helpers = PatternOf(json.at("helpers"));
+  for (const auto& [height, row] : json.at("heights").items())
+    tables.heights.emplace_back(height, PatternOf(row));
+  for (const Json& row : json.at("rules")) {
+    Rule rule;
+    rule.pattern = PatternOf(row);
+    if (row.contains("and")) rule.also = PatternOf(row.at("and"));
+    if (row.contains("sided")) rule.sided = row.at("sided").get<bool>();
+    rule.heights = row.value("heights", Strings());
+    rule.most_words = row.value("most_words", rule.most_words);
+    if (row.contains("kind")) rule.role = RoleOf(row);
+    tables.rules.push_back(std::move(rule));
+  }
+  for (const auto& [bone, row] : json.at("humanoid").items()) tables.humanoid[bone] = RoleOf(row);
+  return tables;
 }
 
-// Helpers of animators, ends of chains, hair and the like.
-bool IsNoFacePart(const PartName& part, const std::string& joined) {
-  return Any(part, {"end",    "nub",     "leaf",   "ik",        "target", "pole", "aim",
-                    "ctrl",   "control", "goal",   "highlight", "hair",   "ear",  "hat",
-                    "twist",  "teeth",   "tongue", "lash",      "lashes", "sec",  "spring",
-                    "ribbon", "glasses", "horn",   "beard"}) ||
-         Contains(joined, "teeth") || Contains(joined, "tongue") || Contains(joined, "lash") ||
-         Contains(joined, "target") || Contains(joined, "hair");
+const Tables& Table() {
+  static const Tables kTables = ReadTables();
+  return kTables;
 }
 
-enum class Height { kUnknown, kUpper, kLower };
-
-Height HeightOf(const PartName& part, const std::string& joined) {
-  if (Any(part, {"up", "top"}) || Contains(joined, "upper")) return Height::kUpper;
-  if (Any(part, {"low", "bot", "down"}) || Contains(joined, "lower") || Contains(joined, "bottom"))
-    return Height::kLower;
-  return Height::kUnknown;
+std::string HeightOf(const Name& name) {
+  for (const auto& [height, pattern] : Table().heights)
+    if (pattern.Fits(name)) return height;
+  return "unknown";
 }
 
-std::optional<BoneRole> Mouth(const PartName& part, const std::string& joined, Height height) {
-  const bool sided = part.side != Side::kNone;
-  if (sided && (Contains(joined, "corner") || height == Height::kUnknown))
-    return BoneRole{BoneKind::kSkin, part.side, Sided(part.side, "mouth_corner")};
-  if (!sided && height == Height::kUpper) return BoneRole{BoneKind::kSkin, {}, "upper_lip"};
-  if (!sided && height == Height::kLower) return BoneRole{BoneKind::kSkin, {}, "lower_lip"};
-  return std::nullopt;  // the lips' other bones: by position
+bool Fits(const Rule& rule, const Name& name, const std::string& height) {
+  return rule.pattern.Fits(name) && (!rule.also || rule.also->Fits(name)) &&
+         (!rule.sided || *rule.sided == (name.part.side != Side::kNone)) &&
+         (rule.heights.empty() || std::ranges::find(rule.heights, height) != rule.heights.end()) &&
+         name.part.words.size() <= rule.most_words;
 }
 
-BoneRole Brow(const PartName& part, const std::string& joined) {
-  const std::string_view place = Contains(joined, "inner") || part.Has("in")    ? "brow_inner"
-                                 : Contains(joined, "outer") || part.Has("out") ? "brow_outer"
-                                                                                : "brow_middle";
-  return {BoneKind::kSkin, part.side, Sided(part.side, place)};
+Name Read(std::string_view name) {
+  PartName part = TakeApart(name);
+  std::string joined = part.Joined();
+  return {std::move(part), std::move(joined)};
 }
 
 }  // namespace
 
-std::optional<BoneRole> MatchBone(std::string_view name) {
-  const PartName part = TakeApart(name);
-  const std::string joined = part.Joined();
-  if (IsNoFacePart(part, joined)) return std::nullopt;
-  const bool sided = part.side != Side::kNone;
-  const Height height = HeightOf(part, joined);
-  if (Contains(joined, "brow")) return sided ? std::optional(Brow(part, joined)) : std::nullopt;
-  if (Contains(joined, "eyelid") || part.Has("lid")) {
-    if (!sided) return std::nullopt;
-    if (height == Height::kLower)
-      return BoneRole{BoneKind::kLowerLid, part.side, Sided(part.side, "lower_lid")};
-    return BoneRole{BoneKind::kUpperLid, part.side, Sided(part.side, "upper_lid")};
+std::optional<BoneRole> MatchBone(std::string_view text) {
+  const Name name = Read(text);
+  if (Table().helpers.Fits(name)) return std::nullopt;
+  const std::string height = HeightOf(name);
+  for (const Rule& rule : Table().rules) {
+    if (!Fits(rule, name, height)) continue;
+    std::optional<BoneRole> role = rule.role;
+    if (!role || name.part.side == Side::kNone) return role;
+    role->side = name.part.side;
+    if (!role->landmark.empty())
+      role->landmark = (role->side == Side::kLeft ? "left_" : "right_") + role->landmark;
+    return role;
   }
-  if (sided && (Any(part, {"eye", "eyeball"}) || joined == "faceeye"))
-    return BoneRole{BoneKind::kEye, part.side, {}};
-  if (Contains(joined, "lip") || Contains(joined, "mouth")) return Mouth(part, joined, height);
-  if (!sided && part.Has("chin")) return BoneRole{BoneKind::kSkin, {}, "chin"};
-  if (!sided && height != Height::kUpper && (Contains(joined, "jaw") || part.Has("mandible")))
-    return BoneRole{BoneKind::kJaw, {}, {}};
-  if (sided && Contains(joined, "cheek"))
-    return BoneRole{BoneKind::kSkin, part.side, Sided(part.side, "cheek")};
-  if (sided && Contains(joined, "nostril"))
-    return BoneRole{BoneKind::kSkin, part.side, Sided(part.side, "nostril")};
-  if (!sided && part.words.size() <= 2 && part.words.size() > 0) {
-    if (part.words.back() == "head") return BoneRole{BoneKind::kHead, {}, {}};
-    if (part.words.back() == "neck" || joined == "neck1" || joined == "neck01")
-      return BoneRole{BoneKind::kNeck, {}, {}};
-  }
-  // VRoid: J_Bip_C_Head.
-  if (part.Has("bip") && part.Has("head")) return BoneRole{BoneKind::kHead, {}, {}};
-  if (part.Has("bip") && part.Has("neck")) return BoneRole{BoneKind::kNeck, {}, {}};
   return std::nullopt;
 }
 
-bool IsHelper(std::string_view name) {
-  const PartName part = TakeApart(name);
-  return IsNoFacePart(part, part.Joined());
-}
+bool IsHelper(std::string_view name) { return Table().helpers.Fits(Read(name)); }
 
 std::optional<BoneRole> MatchHumanoid(std::string_view name) {
-  if (name == "head") return BoneRole{BoneKind::kHead, {}, {}};
-  if (name == "neck") return BoneRole{BoneKind::kNeck, {}, {}};
-  if (name == "jaw") return BoneRole{BoneKind::kJaw, {}, {}};
-  if (name == "leftEye") return BoneRole{BoneKind::kEye, Side::kLeft, {}};
-  if (name == "rightEye") return BoneRole{BoneKind::kEye, Side::kRight, {}};
-  return std::nullopt;
+  const auto at = Table().humanoid.find(name);
+  return at == Table().humanoid.end() ? std::nullopt : std::optional(at->second);
 }
 
 }  // namespace facewire::tools::rig

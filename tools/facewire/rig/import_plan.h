@@ -39,7 +39,7 @@ struct PlannedParameter {
   std::string original;  // in the file
   std::string why;
   Drives drives;
-  std::size_t order = 0;  // where its first signal is in kArkitShapes
+  std::size_t order = 0;  // where its first signal is in ArkitShapes()
 };
 
 // A rig that was found in a character, and what was not.

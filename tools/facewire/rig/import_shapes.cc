@@ -81,7 +81,7 @@ std::string WhyOf(const Candidate& candidate) {
 struct Driven {
   std::map<std::string, double> gains;
   std::vector<std::string> why;
-  std::size_t order = kArkitShapes.size();
+  std::size_t order = ArkitShapes().size();
 };
 
 void Drive(const Candidate& candidate, std::map<std::size_t, Driven>& driven) {
@@ -118,8 +118,8 @@ void PlanShapes(const Character& character, std::size_t room, RigNames& names, I
   std::set<std::string> matched;
   for (const Candidate& candidate : CandidatesOf(character, plan)) {
     if (!candidate.expression) matched.insert(candidate.name);
-    if (candidate.match.signals[0].signal == kUnseenShape) {
-      plan.notes.push_back(Shown(candidate.name) + " is " + std::string(kUnseenShape) +
+    if (candidate.match.signals[0].signal == UnseenShape()) {
+      plan.notes.push_back(Shown(candidate.name) + " is " + UnseenShape() +
                            ", which no landmark shows: a profile of your own may");
       continue;
     }
@@ -149,8 +149,8 @@ void PlanShapes(const Character& character, std::size_t room, RigNames& names, I
   }
   for (PlannedParameter& parameter : plan.parameters)
     parameter.name = names.Take(parameter.original, "shape", kMaxNameLength);
-  for (const std::string_view arkit : kArkitShapes)
-    if (!claims.Has(arkit)) plan.lacking.emplace_back(arkit);
+  for (const std::string& arkit : ArkitShapes())
+    if (!claims.Has(arkit)) plan.lacking.push_back(arkit);
   for (std::size_t i = 0; i < character.shapes.size(); ++i)
     if (!driven.contains(i) && !matched.contains(character.shapes[i].name) &&
         !MatchShape(character.shapes[i].name))

@@ -107,7 +107,7 @@ std::string Count(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-std::size_t ShownOf(const ImportPlan& plan) { return kArkitShapes.size() - plan.lacking.size(); }
+std::size_t ShownOf(const ImportPlan& plan) { return ArkitShapes().size() - plan.lacking.size(); }
 
 std::string UnitText(const ImportPlan& plan) {
   if (plan.cm_per_unit == 100) return "metres";
@@ -170,7 +170,7 @@ std::string SummaryText(const ImportPlan& plan, const Character& character) {
                      Count(character.expressions.size(), "VRM expression") + ", " +
                      Count(character.nodes.size(), "node") + "\n";
   text += "ARKit's shapes: " + std::to_string(ShownOf(plan)) + " of " +
-          std::to_string(kArkitShapes.size()) + " shown, by " +
+          std::to_string(ArkitShapes().size()) + " shown, by " +
           Count(plan.parameters.size(), "parameter") + "\n";
   const auto line = [](const std::string& what, const std::string& why) {
     std::string padded = "  " + Shown(what);

@@ -29,12 +29,6 @@ std::vector<std::string> WordsOf(std::string_view name) {
   return words;
 }
 
-Side SideOf(std::string_view word) {
-  if (word == "l" || word == "left") return Side::kLeft;
-  if (word == "r" || word == "right") return Side::kRight;
-  return Side::kNone;
-}
-
 std::string_view WithoutNamespace(std::string_view name) {
   if (const std::size_t mark = name.find_last_of(":|"); mark != std::string_view::npos)
     name.remove_prefix(mark + 1);
@@ -44,11 +38,17 @@ std::string_view WithoutNamespace(std::string_view name) {
   const bool number =
       std::ranges::all_of(name.substr(dot + 1), [](char c) { return c >= '0' && c <= '9'; });
   // "eye.L" and Blender's "eye.001" keep what is before the dot, "Face.eye_L" what is behind it.
-  if (number || (behind.size() == 1 && SideOf(behind[0]) != Side::kNone)) return name;
+  if (number || (behind.size() == 1 && SideNamed(behind[0]) != Side::kNone)) return name;
   return name.substr(dot + 1);
 }
 
 }  // namespace
+
+Side SideNamed(std::string_view word) {
+  if (word == "l" || word == "left") return Side::kLeft;
+  if (word == "r" || word == "right") return Side::kRight;
+  return Side::kNone;
+}
 
 std::string PartName::Joined() const {
   std::string joined;
@@ -65,7 +65,7 @@ PartName TakeApart(std::string_view name) {
   part.words = WordsOf(WithoutNamespace(name));
   // The last one counts: "eyeLookInLeft". A name that is nothing but a side stays a name.
   for (std::size_t i = part.words.size(); i-- > 0 && part.words.size() > 1;) {
-    const Side side = SideOf(part.words[i]);
+    const Side side = SideNamed(part.words[i]);
     if (side == Side::kNone) continue;
     part.side = side;
     part.words.erase(part.words.begin() + static_cast<std::ptrdiff_t>(i));
@@ -75,7 +75,7 @@ PartName TakeApart(std::string_view name) {
   std::string& last = part.words.back();
   for (const std::string_view word : {"left", "right"}) {
     if (last.size() <= word.size() || !last.ends_with(word)) continue;
-    part.side = SideOf(word);
+    part.side = SideNamed(word);
     last.resize(last.size() - word.size());
     break;
   }

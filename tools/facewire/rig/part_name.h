@@ -9,6 +9,9 @@ namespace facewire::tools::rig {
 
 enum class Side { kNone, kLeft, kRight };
 
+// "l", "left", "r" or "right"; kNone for any other word.
+Side SideNamed(std::string_view word);
+
 // A name as people's spelling leaves it: "mixamorig:LeftEye", "eye.L", "J_Adj_L_FaceEye" and
 // "eyeBlinkLeft" come apart into small words and a side.
 struct PartName {

@@ -73,8 +73,8 @@ struct CheckOptions {
 std::vector<std::string> SignalsOf(const std::string& profile) {
   std::vector<std::string> signals;
   if (profile.empty()) {
-    for (const std::string_view shape : rig::kArkitShapes)
-      if (shape != rig::kUnseenShape) signals.emplace_back(shape);
+    for (const std::string& shape : rig::ArkitShapes())
+      if (shape != rig::UnseenShape()) signals.push_back(shape);
   } else {
     for (const ShortName& name : app::ReadTrainingSet(profile).signals)
       signals.emplace_back(name.view());

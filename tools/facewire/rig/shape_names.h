@@ -1,7 +1,6 @@
 #ifndef FACEWIRE_TOOLS_FACEWIRE_RIG_SHAPE_NAMES_H_
 #define FACEWIRE_TOOLS_FACEWIRE_RIG_SHAPE_NAMES_H_
 
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,24 +10,11 @@
 
 namespace facewire::tools::rig {
 
-// ARKit's blend shapes, by the part of the face that they belong to. The default profile gives
-// every one of them as a signal but tongueOut, which landmarks do not show.
-inline constexpr std::array<std::string_view, 52> kArkitShapes = {
-    "eyeBlinkLeft",     "eyeBlinkRight",     "eyeLookUpLeft",      "eyeLookUpRight",
-    "eyeLookDownLeft",  "eyeLookDownRight",  "eyeLookInLeft",      "eyeLookInRight",
-    "eyeLookOutLeft",   "eyeLookOutRight",   "eyeWideLeft",        "eyeWideRight",
-    "eyeSquintLeft",    "eyeSquintRight",    "browInnerUp",        "browDownLeft",
-    "browDownRight",    "browOuterUpLeft",   "browOuterUpRight",   "jawOpen",
-    "jawForward",       "jawLeft",           "jawRight",           "mouthClose",
-    "mouthFunnel",      "mouthPucker",       "mouthLeft",          "mouthRight",
-    "mouthSmileLeft",   "mouthSmileRight",   "mouthFrownLeft",     "mouthFrownRight",
-    "mouthDimpleLeft",  "mouthDimpleRight",  "mouthStretchLeft",   "mouthStretchRight",
-    "mouthRollLower",   "mouthRollUpper",    "mouthShrugLower",    "mouthShrugUpper",
-    "mouthPressLeft",   "mouthPressRight",   "mouthLowerDownLeft", "mouthLowerDownRight",
-    "mouthUpperUpLeft", "mouthUpperUpRight", "cheekPuff",          "cheekSquintLeft",
-    "cheekSquintRight", "noseSneerLeft",     "noseSneerRight",     "tongueOut",
-};
-inline constexpr std::string_view kUnseenShape = "tongueOut";
+// ARKit's blend shapes, by the part of the face that they belong to (tools/names/shapes.json). The
+// default profile gives every one of them as a signal but UnseenShape(), which landmarks do not
+// show.
+const std::vector<std::string>& ArkitShapes();
+const std::string& UnseenShape();
 
 // How sure a match is; a better one takes a signal from a worse one.
 enum class Match {
@@ -50,7 +36,7 @@ struct SignalShare {
 struct ShapeMatch {
   Match match = Match::kExact;
   std::vector<SignalShare> signals;
-  std::size_t order = 0;  // of the first signal in kArkitShapes
+  std::size_t order = 0;  // of the first signal in ArkitShapes()
 };
 
 // By the name of a morph target or VRM expression; nullopt when it says nothing.

@@ -5,6 +5,7 @@ import { frame } from './framing.js';
 import { LoadedBone, findBones, shownBy } from './loaded_bones.js';
 import { LoadedShapes } from './loaded_shapes.js';
 import { ARKIT, rigName } from './names.js';
+import { smooth } from './normals.js';
 import { NECK } from './surface.js';
 
 const LONGEST = 31, LONGEST_BONE = 25; // characters of a rig's names
@@ -88,6 +89,7 @@ export class LoadedCharacter {
       if (!object.isMesh) return;
       object.frustumCulled = false; // bounds are those of a body at rest
       object.castShadow = object.receiveShadow = true;
+      smooth(object);
       this.meshes.push(object);
     });
     this.root.updateMatrixWorld(true);

@@ -94,7 +94,7 @@ std::string MadeCharacter::Glb() const {
 MadeCharacter ArkitCharacter() {
   MadeCharacter character;
   AddPerson(character, 1);
-  character.Mesh("face", {kArkitShapes.begin(), kArkitShapes.end()});
+  character.Mesh("face", ArkitShapes());
   character.Mesh("teeth", {"jawOpen", "tongueOut"});
   return character;
 }

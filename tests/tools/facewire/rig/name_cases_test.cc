@@ -55,7 +55,7 @@ TEST(NameCases, BonesMeanWhatTheCasesSay) { ExpectAll("bones", MatchBone); }
 TEST(NameCases, HumanoidBonesMeanWhatTheCasesSay) { ExpectAll("humanoid", MatchHumanoid); }
 
 TEST(NameCases, ArkitsShapesAreItsOwn) {
-  for (const std::string_view shape : kArkitShapes)
+  for (const std::string& shape : ArkitShapes())
     EXPECT_EQ(AsJson(MatchShape(shape)).at("match"), "exact") << shape;
 }
 

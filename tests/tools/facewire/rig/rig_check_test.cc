@@ -24,7 +24,7 @@ using testing::StartsWith;
 
 std::vector<std::string> CheckFile(const std::filesystem::path& file) {
   const Rig rig = app::LoadRig(file);
-  const std::vector<std::string> signals(kArkitShapes.begin(), kArkitShapes.end() - 1);
+  const std::vector<std::string> signals(ArkitShapes().begin(), ArkitShapes().end() - 1);
   std::vector<std::string> lines;
   for (const Remark& remark : CheckRig(rig, app::LoadServoRig(file, rig), signals))
     lines.push_back((remark.lacks ? "lacks " : "hint ") + remark.text);

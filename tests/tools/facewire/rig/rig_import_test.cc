@@ -76,8 +76,8 @@ TEST(RigImport, MatchesEveryArkitShapeThatLandmarksShow) {
   const ImportedRig imported = ImportRig(ArkitCharacter().Glb(), "head.glb");
   const Rig rig = Load(imported.toml);
   EXPECT_EQ(rig.name.view(), "head");
-  for (const std::string_view shape : kArkitShapes)
-    EXPECT_EQ(rig.FindChannel(shape).has_value(), shape != kUnseenShape) << shape;
+  for (const std::string& shape : ArkitShapes())
+    EXPECT_EQ(rig.FindChannel(shape).has_value(), shape != UnseenShape()) << shape;
   EXPECT_THAT(imported.summary, AllOf(HasSubstr("51 of 52 shown"), HasSubstr("lacks: tongueOut")));
 }
 
