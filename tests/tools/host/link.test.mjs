@@ -81,6 +81,26 @@ test('a line that speaks OSC is named, until it speaks the native protocol', asy
   assert.equal(link.problem, '');
 });
 
+test('a rig that changes is taken up though its poses come between its parts', async () => {
+  const { link, line, pass } = await context();
+  line.to.bytes(franck);
+  assert.equal(link.rig.name, 'otto');
+  const text = (name) => [name.length, ...new TextEncoder().encode(name)];
+  const f32 = (value) => [...new Uint8Array(Float32Array.of(value).buffer)];
+  const channel = (i, name) => frame(0x03, [...little(5, 4), i, 0, 255, ...f32(0), ...f32(0), ...f32(1), ...text(name)]);
+  const pose = frameOf({ rig_id: 5, frame_seq: 1, captured_us: 1n, age_us: 0, state: 2, steps: [0, 65535] });
+  const parts = [frame(0x01, [...little(5, 4), 0, 2, ...text('new')]), channel(0, 'a'), channel(1, 'b')];
+  line.to.bytes(pose);
+  await pass(1100);
+  assert.ok(line.codes().includes(COMMANDS.describe_rig));
+  for (const part of parts) {
+    line.to.bytes(part);
+    line.to.bytes(pose);
+  }
+  assert.equal(link.rig.name, 'new');
+  assert.deepEqual([...link.values], [0, 1]);
+});
+
 test('without poses a link is silent, and live again with the next', async () => {
   const { link, line, pass } = await context();
   line.to.bytes(franck.subarray(0, 90000));

@@ -192,8 +192,8 @@ export class Link {
     if (!this.rig) return;
     const values = valuesOf(pose, this.rig);
     if (!values) {
-      // The rig has changed: no motion on values that mean something else.
-      this.#collector = new RigCollector();
+      // The rig has changed: no motion on values that mean something else. Parts of the new one that have come stay.
+      if (this.#collector.rigId === this.rig.rig_id) this.#collector = new RigCollector();
       return;
     }
     this.state = 'live';

@@ -14,6 +14,7 @@ import { Values } from './values.js';
 
 // The page: one link, one character, and what is to be seen of both.
 
+const options = new URLSearchParams(location.hash.slice(1)); // #line=ws://...&pixels=all
 const $ = (id) => document.getElementById(id);
 const view = $('view');
 const studio = new Studio(view);
@@ -132,12 +133,12 @@ function tell() {
   plot.draw(performance.now());
 }
 
-const pace = new Pace();
+const pace = options.get('pixels') === 'all' ? null : new Pace(); // for pictures, however slow
 let frameBefore = performance.now(), drewBefore = false;
 function frame(now) {
   move(now);
   if (character.update?.(Math.min(100, now - frameBefore) / 1000)) stale = true;
-  if (pace.frame(now, now - frameBefore, drewBefore && stale)) resize();
+  if (pace?.frame(now, now - frameBefore, drewBefore && stale)) resize();
   frameBefore = now;
   drewBefore = stale;
   if (stale) {
@@ -148,7 +149,7 @@ function frame(now) {
   requestAnimationFrame(frame);
 }
 function resize() {
-  studio.resize(view.clientWidth, view.clientHeight, pace.scale * Math.min(2, window.devicePixelRatio || 1));
+  studio.resize(view.clientWidth, view.clientHeight, (pace?.scale ?? 1) * Math.min(2, window.devicePixelRatio || 1));
   stale = true;
 }
 new ResizeObserver(resize).observe(view);
@@ -235,7 +236,7 @@ $('theme').onclick = () => {
 
 // --- a page that comes from `facewire serve` follows its line; any other begins with the recording
 
-const wanted = new URLSearchParams(location.hash.slice(1)).get('line');
+const wanted = options.get('line');
 const own = location.protocol.startsWith('http') ? Object.assign(new URL('/line', location), { hash: '' }).href.replace(/^http/, 'ws') : null;
 if (wanted ?? own) {
   $('url').value = wanted ?? own;

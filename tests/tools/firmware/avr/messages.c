@@ -10,11 +10,14 @@
 #define MOST_CHANNELS 240
 #define MOST_NAME 31
 #define MOST_TEXT 480
+#define MOST_LANDMARKS 478
+#define MOST_POINTS 32
 
 // A field is a letter for how it reads, its key, and what it must stay below if that matters:
 //   1 2 4 unsigned of so many bytes   t signed, of 8   f float   v three floats
 //   n name   x text   k kind of a channel   b bone, 255 as -1   s, r state of a service, a receiver
-//   q, p list of steps, of pulses   m c i float or byte that only some results and commands have
+//   q, p list of steps, of pulses   l list of points, within the two u16 before it   m c i float or
+//   byte that only some results and commands have
 typedef struct {
   uint8_t type;
   const char* name;
@@ -31,6 +34,7 @@ static const Layout kLayouts[] = {
      "4latency_p50_us 4latency_p99_us"},
     {0x12, "acknowledgement", "2id 1code 1result tnow_us mmeasure"},
     {0x13, "text", "2id xtext"},
+    {0x16, "landmarks", "4frame_seq tcaptured_us 2width_px 2height_px 2total 2first leighth_px"},
     {0x80, "command", "2id 1code cvalue iitem"},
     {0x81, "receiver_status",
      "4setup_id rstate 1capacity<65 1version_major 1version_minor 1reset_causes 2supply_mv "
@@ -152,6 +156,22 @@ static void List(Walk* w, uint8_t most, bool pulses) {
   if (w->writes) WriteCharacter(']');
 }
 
+static void Points(Walk* w) {
+  const uint8_t* const range = w->payload + w->at - 4;
+  const uint16_t total = FwGet16(range);
+  const uint32_t first = FwGet16(range + 2);
+  const uint8_t count = Take(w, 1)[0];
+  Require(w, count <= MOST_POINTS && total <= MOST_LANDMARKS && first + count <= total);
+  if (w->writes) WriteCharacter('[');
+  for (uint8_t i = 0; i < 2 * count && w->sound; ++i) {
+    const int16_t value = (int16_t)FwGet16(Take(w, 2));
+    if (!w->writes) continue;
+    if (i > 0) WriteCharacter(',');
+    WriteSigned((uint64_t)(int64_t)value);
+  }
+  if (w->writes) WriteCharacter(']');
+}
+
 static void Kind(Walk* w) {
   const uint8_t kind = Take(w, 1)[0];
   if (!w->writes) return;
@@ -182,7 +202,7 @@ static bool Has(const Walk* w, char kind) {
   const uint8_t code = w->payload[2];
   const uint8_t result = w->payload[3];
   if (kind == 'm') return result >= 5 && result <= 9;
-  if (kind == 'c') return code == 7 || code == 10;
+  if (kind == 'c') return code == 7 || code == 10 || code == 11;
   if (kind == 'i') return code == 10;
   return true;
 }
@@ -240,6 +260,9 @@ static void Value(Walk* w, char kind, uint8_t below) {
       break;
     case 'p':
       List(w, MOST_SERVOS, true);
+      break;
+    case 'l':
+      Points(w);
       break;
   }
 }

@@ -17,7 +17,7 @@ const nameOf = (text) => [text.length, ...new TextEncoder().encode(text)];
 const RIG_ID = 7;
 
 class Board {
-  commands = []; // those that came, but pings and questions for the rig
+  commands = []; // those that came, but pings and what is asked for
   results = {}; // by a command's name: what it is answered with, if not 0
   plugged = true;
   refused = null; // a DOMException that opening ends with
@@ -30,7 +30,7 @@ class Board {
   #decoder = new Decoder();
   #sequence = 0;
   #pictures = 0;
-  #talks = true;
+  #talks = false; // until it has a rig
 
   constructor() { setInterval(() => this.#tick(), PICTURE_MS); }
 
@@ -103,7 +103,7 @@ class Board {
       if (type !== 'command' || !this.#talks) continue;
       const name = Object.keys(COMMANDS).find((n) => COMMANDS[n] === code);
       if (name === 'describe_rig') this.#describe();
-      else if (name !== 'ping') this.commands.push(name);
+      else if (!['ping', 'landmarks'].includes(name)) this.commands.push(name);
       this.#send(0x12, [...u16(id), code, this.results[name] ?? 0, ...i64(this.#now())]);
     }
   }

@@ -18,6 +18,7 @@ const { chromium } = createRequire(`${env('FACEWIRE_ASSETS')}/playwright-core/`)
 
 export const PAGE = env('FACEWIRE_PAGE');
 export const FILE = pathToFileURL(join(PAGE, 'index.html')).href;
+export const ALL_PIXELS = '#pixels=all'; // else a slow computer gets a coarser picture, and pictures cannot be compared
 const VIEWPORT = { width: 848, height: 480 }; // the character gets 480 x 480
 
 // A browser that is closed, with all that it wrote, when the test file ends: `after(() => browser.close())`.
@@ -42,7 +43,7 @@ export class Browser {
 
   // The page, opened; `board`: with a stand-in at its serial port. What it asked for and complained of is in `requests` and
   // `complaints`.
-  async open(url = FILE, { board = false, viewport = VIEWPORT, theme = 'dark', ...more } = {}) {
+  async open(url = FILE + ALL_PIXELS, { board = false, viewport = VIEWPORT, theme = 'dark', ...more } = {}) {
     const context = await this.chromium.newContext({ viewport, colorScheme: theme, acceptDownloads: true, ...more });
     if (board) await context.addInitScript({ path: env('FACEWIRE_BOARD') });
     const page = await context.newPage();
@@ -84,9 +85,9 @@ export class Page {
       look();
     }));
   }
-  // The picture of an element, as bytes of a PNG.
+  // The picture of an element, or with null of all that the window shows, as bytes of a PNG.
   async shot(name, selector = '#view') {
-    const png = await this.page.locator(selector).screenshot({ timeout: PATIENCE_MS, animations: 'disabled' });
+    const png = await (selector ? this.page.locator(selector) : this.page).screenshot({ timeout: PATIENCE_MS, animations: 'disabled' });
     if (process.env.FACEWIRE_SHOTS) writeFileSync(join(process.env.FACEWIRE_SHOTS, `${String(++shots).padStart(2, '0')}-${name}.png`), png);
     return png;
   }

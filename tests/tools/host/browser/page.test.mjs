@@ -17,7 +17,7 @@ for (const { name, viewport, theme } of WAYS) {
     const page = await browser.open(FILE, { viewport, theme });
     await page.shows('state-text', /^recording: tracking$/);
     await page.shows('rate', /^2\d$/);
-    await page.shot(name.replace(', ', '-'), 'body');
+    await page.shot(name.replace(', ', '-'), null);
     assert.ok(page.requests.every((url) => url.startsWith('file://')), page.requests.join(' '));
     assert.deepEqual(page.complaints, []);
     const [content, window] = await page.page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 
-import { Browser, Service } from './harness.mjs';
+import { ALL_PIXELS, Browser, Service } from './harness.mjs';
 
 // The whole way: franck.mp4 before the mock camera, the real service, its line, `facewire serve`, WebSocket, the page.
 
@@ -12,7 +12,7 @@ before(async () => {
   [browser, service] = [await Browser.start(), new Service()];
   await service.start();
   address = await service.serve();
-  page = await browser.open(address);
+  page = await browser.open(address + ALL_PIXELS);
 });
 after(async () => {
   await browser?.close();
