@@ -97,6 +97,23 @@ test('VRM 1: a preset for both eyes, several shapes of one expression, and a cus
   assert.deepEqual(character.leftToShapes, ['LeftEye', 'RightEye']); // it looks by expressions
 });
 
+test('what swings by itself goes on for a while after the head has turned, and hangs as in metres', async () => {
+  const character = await load('puppet.vrm', vrm1Character().glb());
+  const hair = character.root.getObjectByName('hair_1'), turn = () => hair.quaternion.toArray();
+  const driver = new Driver(character, rig(['neck'], ['neck.yaw']));
+  const swing = (seconds) => {
+    for (let t = 0; t < seconds; t += 1 / 60) assert.equal(character.update(1 / 60), true);
+    return turn();
+  };
+  const still = swing(3);
+  driver.apply([60]);
+  const away = swing(0.1);
+  assert.ok(Math.hypot(...away.map((c, k) => c - still[k])) > 0.01, `${away}`);
+  near(swing(5), turn(), 1e-3);
+  const before = turn();
+  near(swing(1), before, 1e-3);
+});
+
 test('a face comes to where Otto\'s is, in centimetres, whatever the file has', async () => {
   for (const make of [() => arkitCharacter(ARKIT), vrm0Character, vrm1Character, bonesCharacter]) {
     const character = await load('puppet.glb', make().glb());

@@ -102,6 +102,12 @@ export class MadeCharacter {
     return mesh;
   }
 
+  // Everything in this material.
+  paint(material) {
+    this.json.materials = [material];
+    for (const { primitives } of this.json.meshes) for (const primitive of primitives) primitive.material = 0;
+  }
+
   #skin(node, joint) {
     const joints = [joint, ...this.json.nodes.keys()].filter((n, i, all) => all.indexOf(n) === i && this.json.nodes[n].mesh === undefined);
     const inverse = joints.map((n) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, ...this.#places[n].map((c) => -c), 1]);
@@ -141,6 +147,10 @@ export function arkitCharacter(shapes) {
   return made;
 }
 
+// How far eyes turn for what they look at: linear, as most files have it.
+const LOOK_0 = Object.fromEntries(['HorizontalInner', 'HorizontalOuter', 'VerticalDown', 'VerticalUp']
+  .map((way) => [`lookAt${way}`, { curve: [0, 0, 0, 1, 1, 1, 1, 0], xRange: 90, yRange: 10 }]));
+
 // VRM 0: faces -z, expressions combine shapes, the eyes turn by bones.
 export function vrm0Character() {
   const made = new MadeCharacter(-1), nodes = made.humanoid(), { head } = nodes;
@@ -148,9 +158,11 @@ export function vrm0Character() {
   const group = (presetName, ...binds) => ({ name: presetName, presetName, binds: binds.map(([index, weight]) => ({ mesh, index, weight })) });
   const human = Object.entries(nodes).map(([bone, node]) => ({ bone, node }));
   made.json.extensionsUsed = ['VRM'];
+  made.paint({ name: 'toon' });
   made.json.extensions = { VRM: {
     specVersion: '0.0', exporterVersion: 'made', meta: { title: 'Old Puppet' }, humanoid: { humanBones: human },
-    firstPerson: { lookAtTypeName: 'Bone', firstPersonBone: head },
+    firstPerson: { lookAtTypeName: 'Bone', firstPersonBone: head, ...LOOK_0 },
+    materialProperties: [{ name: 'toon', shader: 'VRM/MToon', floatProperties: { _ShadeToony: 0.9 }, vectorProperties: { _Color: [1, 1, 1, 1] }, textureProperties: {}, keywordMap: {}, tagMap: {} }],
     blendShapeMaster: { blendShapeGroups: [
       group('blink_l', [0, 100]), group('blink_r', [1, 100]), group('blink', [2, 100]), group('a', [3, 100], [4, 30]),
       group('joy', [5, 80]), group('lookup'), group('neutral'),
@@ -159,15 +171,21 @@ export function vrm0Character() {
   return made;
 }
 
-// VRM 1: looks by expressions.
+// VRM 1: looks by expressions; its hair swings.
 export function vrm1Character() {
   const made = new MadeCharacter(), nodes = made.humanoid(), { head } = nodes;
+  const hair = ['hair_1', 'hair_2', 'hair_3'].reduce((above, name, i) => [...above, made.bone(name, [0, 1.66 - 0.05 * i, -0.1], above.at(-1) ?? head)], []);
   made.head('Face', ['m0_eye', 'm1_open', 'm2', 'm3_look', 'm4_cheek'], { joint: head });
   const node = made.json.nodes.length - 1;
   const expression = (...binds) => ({ morphTargetBinds: binds.map(([index, weight]) => ({ node, index, weight })) });
   const human = Object.fromEntries(Object.entries(nodes).map(([bone, n]) => [bone, { node: n }]));
-  made.json.extensionsUsed = ['VRMC_vrm'];
-  made.json.extensions = { VRMC_vrm: {
+  made.json.extensionsUsed = ['VRMC_vrm', 'VRMC_springBone', 'VRMC_materials_mtoon'];
+  made.paint({ name: 'toon', extensions: { VRMC_materials_mtoon: {
+    specVersion: '1.0', shadeColorFactor: [0.6, 0.4, 0.4], outlineWidthMode: 'worldCoordinates', outlineWidthFactor: 0.002,
+  } } });
+  made.json.extensions = { VRMC_springBone: {
+    specVersion: '1.0', springs: [{ joints: hair.map((node) => ({ node, stiffness: 1, gravityPower: 0.5, dragForce: 0.4, hitRadius: 0.01 })) }],
+  }, VRMC_vrm: {
     specVersion: '1.0', meta: { name: 'New Puppet', authors: ['nobody'], licenseUrl: 'https://vrm.dev/licenses/1.0/' },
     humanoid: { humanBones: human }, lookAt: { type: 'expression' },
     expressions: {

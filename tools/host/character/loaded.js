@@ -9,6 +9,7 @@ import { smooth } from './normals.js';
 import { NECK } from './surface.js';
 
 const LONGEST = 31, LONGEST_BONE = 25; // characters of a rig's names
+const TOON = 0.5; // of a toon material's own brightness
 
 // Somebody else's character, behind the interface of Character: ARKit's shapes and Otto's bones by name, whatever the file calls
 // them, and what it calls them too. In centimetres, looking along z, with its eyes where Otto's are. Nothing is seen of
@@ -96,7 +97,8 @@ export class LoadedCharacter {
     this.#scaleVrm(scale);
   }
 
-  // Springs and outlines count in metres, whatever the scale.
+  // Springs and outlines count in metres, whatever the scale. Toon's light is one lamp of strength 1; the studio has four, and
+  // the lit and the shaded side get some of each.
   #scaleVrm(scale) {
     const springs = this.#vrm?.springBoneManager;
     if (springs) {
@@ -107,7 +109,10 @@ export class LoadedCharacter {
       springs.setInitState();
     }
     for (const material of this.#vrm?.materials ?? []) {
-      if (material.isMToonMaterial && material.outlineWidthMode === 'worldCoordinates') material.outlineWidthFactor *= scale;
+      if (!material.isMToonMaterial) continue;
+      if (material.outlineWidthMode === 'worldCoordinates') material.outlineWidthFactor *= scale;
+      material.color.multiplyScalar(TOON);
+      material.shadeColorFactor.multiplyScalar(TOON);
     }
   }
 

@@ -32,14 +32,14 @@ export class Cast {
 
   // What is known of the character that is shown; `driver` is null while there is no rig.
   tell(character, driver) {
-    const shapes = new Set(character.shapeNames), bones = [...character.bones.keys()];
+    const shapes = new Set(character.shapeNames);
+    const bones = character.aliases ? [...character.aliases].map(([name, part]) => (name === part ? part : `${part}: ${name}`)) : [...character.bones.keys()];
     put('character-name', character.name);
     put('character-shapes', `${ARKIT.filter((name) => shapes.has(name)).length} of ${ARKIT.length}`);
     put('character-bones', String(bones.length));
     $('character-otto').hidden = !character.dispose;
     $('view').setAttribute('aria-label', `${character.name}, moving with the performer's face. Arrow keys turn the view.`);
-    const called = new Map([...character.aliases ?? []].map(([name, part]) => [part, name]));
-    list('character-bone-list', bones.map((part) => ((called.get(part) ?? part) === part ? part : `${part}: ${called.get(part)}`)));
+    list('character-bone-list', bones);
     list('character-left', character.leftToShapes ?? []);
     list('gap-arkit', ARKIT.filter((name) => !shapes.has(name)));
     list('gap-values', driver?.unused ?? []);

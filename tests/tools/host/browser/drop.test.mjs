@@ -3,7 +3,7 @@ import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 
 import { ARKIT } from '../../../../tools/host/character/shapes.js';
-import { arkitCharacter, bonesCharacter, vrm1Character } from '../made_character.mjs';
+import { arkitCharacter, bonesCharacter, vrm0Character, vrm1Character } from '../made_character.mjs';
 import { Browser } from './harness.mjs';
 
 // Somebody's own character, dropped on the page.
@@ -64,20 +64,30 @@ test('a character that is dropped moves in his place', async () => {
   assert.ok(turned.EYES > 0.02, JSON.stringify(turned));
 });
 
-test('a VRM in several conventions, chosen by the button', async () => {
+test('a VRM of either version, dropped or chosen by the button', async () => {
+  await drop(['old.vrm', vrm0Character().glb()]);
+  await page.shows('character-name', /^old\.vrm$/);
+  const rest = await face('vrm0-rest', {}), { MOUTH: mouth } = await page.differences(rest, await face('vrm0-open', { jawOpen: 1 }), REGIONS);
+  assert.ok(mouth > 0.003, String(mouth)); // toon: most of it is one colour
   const [chooser] = await Promise.all([page.page.waitForEvent('filechooser'), page.press('character-open')]);
   await chooser.setFiles({ name: 'puppet.vrm', mimeType: '', buffer: vrm1Character().glb() });
   await page.shows('character-name', /^puppet\.vrm$/);
   assert.ok((await items('gap-arkit')).includes('tongueOut'));
+  await face('vrm1-blink', { eyeBlinkLeft: 1, eyeBlinkRight: 1 });
 });
 
-test('a .gltf that comes without its buffer says so, and the character stays', async () => {
+// One pixel.
+const PNG = Buffer.from('iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==', 'base64');
+
+test('a .gltf that comes without its buffer and texture says so, and the character stays', async () => {
   const made = bonesCharacter();
+  Object.assign(made.json, { images: [{ uri: 'skin.png' }], textures: [{ source: 0 }] });
+  made.paint({ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } });
   await drop(['bones.gltf', made.gltf('bones.bin')]);
-  await page.shows('character-problem', /^bones\.gltf needs bones\.bin beside it/);
+  await page.shows('character-problem', /^bones\.gltf needs bones\.bin and skin\.png beside it/);
   assert.equal(await page.text('character-name'), 'puppet.vrm');
   await page.shot('dropped-notice', 'body');
-  await drop(['bones.gltf', made.gltf('bones.bin')], ['bones.bin', made.bin]);
+  await drop(['bones.gltf', made.gltf('bones.bin')], ['bones.bin', made.bin], ['skin.png', PNG]);
   await page.shows('character-name', /^bones\.gltf$/);
   assert.equal(await page.page.locator('#character-notice').isVisible(), false);
   assert.ok((await items('character-bone-list')).includes('jaw: Jaw'));
