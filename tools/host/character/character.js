@@ -157,7 +157,7 @@ export class Character {
     const { geometry, jaw } = mouth.mouthSkin(tone(SHELL), tone(0xdcc3af), tone(0xb06a5d));
     const fields = { ...shapes.mouthShapes, ...shapes.lipBones };
     addShapes(geometry, Object.fromEntries(Object.entries(fields).map(([n, f]) => [n, (p, i) => f(p, jaw[i])])));
-    geometry.setAttribute('skinIndex', new BufferAttribute(new Uint16Array(jaw.flatMap(() => [0, 1, 0, 0])), 4));
+    geometry.setAttribute('skinIndex', new BufferAttribute(new Uint16Array(jaw.flatMap((w) => [0, w > 0 ? 1 : 0, 0, 0])), 4));
     geometry.setAttribute('skinWeight', new BufferAttribute(new Float32Array(jaw.flatMap((w) => [1 - w, w, 0, 0])), 4));
     const mesh = new SkinnedMesh(geometry, this.materials.skin);
     mesh.frustumCulled = false;

@@ -10,6 +10,7 @@ import { Pace } from './pace.js';
 import { Plot } from './plot.js';
 import { Recording, Serial, Socket } from './sources.js';
 import { ServiceStatus } from './status.js';
+import { Takes } from './takes.js';
 import { Values } from './values.js';
 
 // The page: one link, one character, and what is to be seen of both.
@@ -59,7 +60,14 @@ link.onRig = () => {
   plot.clear();
   choosePlotted();
 };
-link.onPose = (pose, now) => plot.add(performance.now(), now);
+const takes = new Takes(() => link.rig, () => ({ character, driver }), () => {
+  driver.apply(shown);
+  stale = true;
+});
+link.onPose = (pose, now) => {
+  plot.add(performance.now(), now);
+  takes.add(pose, values.gained(now));
+};
 link.onLandmarks = (picture) => performer.show(picture);
 function choosePlotted() {
   if (link.rig) plot.choose(link.rig.channels, values.plotted);
@@ -127,6 +135,7 @@ function tell() {
   const pose = ['live', 'silent'].includes(link.state) ? link.pose : null;
   performer.say(pose, !live, link.landmarksRefused && 'this device sends no landmarks');
   service.tell(link.status, pose);
+  takes.tell();
   $('hint').hidden = link.source !== recording;
   if (document.hidden) return;
   if (link.values) values.update(link.values);

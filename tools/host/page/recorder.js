@@ -1,0 +1,52 @@
+import { STATES } from '../decoder/message.js';
+
+export const LONGEST_US = 600e6; // ten minutes: 15 000 pictures at 25 a second, 5 MB of values
+
+// What the character was told, picture by picture, at the times when the camera took them.
+export class Recorder {
+  running = false;
+  rig = null;
+  frames = []; // [{ frame, t_us from the first, age_us, state, values in the channels' units }]
+  ended = ''; // why it ended by itself
+  #offset = 0; // of the device's clock
+  #step = 40e3; // between the last two pictures
+
+  start(rig) {
+    Object.assign(this, { running: true, rig, frames: [], ended: '' });
+  }
+  stop(why = '') {
+    this.running = false;
+    this.ended = why;
+  }
+
+  get seconds() { return (this.frames.at(-1)?.t_us ?? 0) / 1e6; }
+
+  // `values` are the pose's as the character gets them, gains included.
+  add(pose, values) {
+    if (!this.running) return;
+    if (pose.rig_id !== this.rig.rig_id) {
+      this.stop('the rig has changed');
+      return;
+    }
+    const captured = Number(pose.captured_us), last = this.frames.at(-1);
+    if (!last) this.#offset = captured;
+    // A recording that begins again, a device that was started anew: the next picture, on another clock.
+    else if (captured - this.#offset < last.t_us) this.#offset = captured - last.t_us - this.#step;
+    const t_us = captured - this.#offset;
+    if (last && t_us === last.t_us) return; // the same picture again
+    if (t_us > LONGEST_US) {
+      this.stop('ten minutes are the most');
+      return;
+    }
+    if (last && t_us - last.t_us < 200e3) this.#step = t_us - last.t_us;
+    this.frames.push({ frame: pose.frame_seq, t_us, age_us: pose.age_us, state: STATES[pose.state], values: Float32Array.from(values) });
+  }
+
+  // As `facewire monitor --csv` writes it.
+  csv() {
+    const name = (text) => (/[,"]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+    const number = (value) => String(Number(value.toFixed(6)));
+    const lines = this.frames.map(({ frame, t_us, age_us, state, values }) => [frame, t_us, age_us, state, ...Array.from(values, number)]);
+    return `${[['frame', 't_us', 'age_us', 'state', ...this.rig.channels.map((c) => name(c.name))], ...lines].map((l) => l.join()).join('\n')}\n`;
+  }
+}
