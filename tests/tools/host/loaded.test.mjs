@@ -220,6 +220,7 @@ for (const [what, name, bytes, message] of [
   ['a mesh that is nowhere', 'head.glb', edited((j) => { j.scenes[0].nodes = [0]; }), /^head\.glb has nothing to see: a mesh with vertices belongs in it$/],
   ['a node that is not there', 'head.glb', edited((j) => { j.nodes[0].children = [99]; }), /^head\.glb is damaged: /],
   ['a view beyond its buffer', 'head.glb', edited((j) => { j.bufferViews[0].byteOffset = 1e8; }), /^head\.glb is damaged: /],
+  ['an address that is none', 'head.glb', edited((j) => { j.images = [{ uri: '%' }]; }), /^head\.glb is damaged: /],
   ['Draco', 'head.glb', edited((j) => { j.extensionsUsed = ['KHR_draco_mesh_compression']; }), /^head\.glb cannot be shown: its meshes are compressed by Draco/],
   ['KTX2', 'head.glb', edited((j) => { j.extensionsRequired = j.extensionsUsed = ['KHR_texture_basisu']; }), /^head\.glb cannot be shown: its textures are KTX2/],
   ['a picture', 'me.png', Buffer.from('x'), /^me\.png is no character: \.glb, \.gltf and \.vrm are right$/],

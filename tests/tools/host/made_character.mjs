@@ -162,7 +162,10 @@ export function vrm0Character() {
   made.json.extensions = { VRM: {
     specVersion: '0.0', exporterVersion: 'made', meta: { title: 'Old Puppet' }, humanoid: { humanBones: human },
     firstPerson: { lookAtTypeName: 'Bone', firstPersonBone: head, ...LOOK_0 },
-    materialProperties: [{ name: 'toon', shader: 'VRM/MToon', floatProperties: { _ShadeToony: 0.9 }, vectorProperties: { _Color: [1, 1, 1, 1] }, textureProperties: {}, keywordMap: {}, tagMap: {} }],
+    materialProperties: [{
+      name: 'toon', shader: 'VRM/MToon', floatProperties: { _ShadeToony: 0.9 }, vectorProperties: { _Color: [1, 1, 1, 1] },
+      textureProperties: {}, keywordMap: {}, tagMap: {},
+    }],
     blendShapeMaster: { blendShapeGroups: [
       group('blink_l', [0, 100]), group('blink_r', [1, 100]), group('blink', [2, 100]), group('a', [3, 100], [4, 30]),
       group('joy', [5, 80]), group('lookup'), group('neutral'),

@@ -26,7 +26,8 @@ export class Driver {
     const parts = rig.bones.map(({ name }) => this.#partNamed(name));
     const parameters = this.#parameters(rig);
     const told = new Set([...parameters.values()].flat().map(([signal]) => signal)); // as shapes
-    const direct = new Set(rig.channels.filter((c) => c.kind !== 'parameter' && this.#has(parts[c.bone], c.kind)).map((c) => `${parts[c.bone]}|${c.kind}`));
+    const direct = new Set(rig.channels.filter((c) => c.kind !== 'parameter' && this.#has(parts[c.bone], c.kind))
+      .map((c) => `${parts[c.bone]}|${c.kind}`));
     const speaks = [...told].some((signal) => signal.startsWith('mouth'));
     const turners = SHARES.filter(([part]) => parts.includes(part)).length;
     this.#channels = rig.channels.map((channel, i) => {

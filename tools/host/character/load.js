@@ -60,7 +60,6 @@ export async function loadCharacter(files) {
   if (models.length > 1) throw new BadCharacter(`${listed(models.map((m) => m.name))} are ${models.length} characters: one at a time`);
   const [{ name }] = models, bytes = await models[0].arrayBuffer();
   const beside = new Map(files.map((file) => [file.name.toLowerCase(), file])), urls = new Map();
-  check(jsonOf(bytes, name), name, beside);
   const manager = new LoadingManager();
   manager.setURLModifier((url) => {
     const file = /^(data|blob):/.test(url) ? null : beside.get(baseName(url));
@@ -71,8 +70,10 @@ export async function loadCharacter(files) {
   const loader = new GLTFLoader(manager).setMeshoptDecoder(MeshoptDecoder);
   loader.register((parser) => new VRMLoaderPlugin(parser, { autoUpdateHumanBones: false }));
   try {
+    check(jsonOf(bytes, name), name, beside);
     return new LoadedCharacter(await loader.parseAsync(bytes, ''), name);
   } catch (error) {
+    if (error instanceof BadCharacter) throw error;
     throw new BadCharacter(`${name} ${/^has /.test(error.message) ? error.message : `is damaged: ${error.message}`}`);
   } finally {
     for (const url of urls.values()) URL.revokeObjectURL(url);

@@ -118,7 +118,8 @@ export class LoadedCharacter {
 
   #takeBones(found, gazeByBones) {
     const inCharacter = new Matrix4().copy(this.root.matrixWorld).invert();
-    const eyes = new Map([...found].filter(([part]) => part.startsWith('eye_')).map(([part, { bone }]) => [part.at(-1), new LoadedBone(bone, inCharacter).place]));
+    const eyes = new Map([...found].filter(([part]) => part.startsWith('eye_'))
+      .map(([part, { bone }]) => [part.at(-1), new LoadedBone(bone, inCharacter).place]));
     const matched = [...this.#shapes.names.keys()];
     for (const [part, { bone, name }] of found) {
       const signal = shownBy(part);
