@@ -126,6 +126,13 @@ class Serve(unittest.TestCase):
                 self.get(path)
             refused.exception.close()
 
+    def test_the_page_runs_nothing_of_other_servers(self):
+        with urllib.request.urlopen(f"http://127.0.0.1:{self.port}/", timeout=PATIENCE_S) as answer:
+            policy = answer.headers["content-security-policy"]
+            self.assertEqual(answer.headers["x-content-type-options"], "nosniff")
+        for part in ["default-src 'none'", "script-src 'self' 'wasm-unsafe-eval'", "frame-ancestors 'none'"]:
+            self.assertIn(part, policy.split("; "))
+
     def test_bytes_of_the_line_come_to_every_viewer(self):
         viewers = [self.viewer(), self.viewer(origin=f"http://127.0.0.1:{self.port}")]
         for viewer in viewers:

@@ -28,16 +28,7 @@ before(async () => {
 });
 after(() => browser?.close());
 
-// As a hand does it: files over the page, then let go.
-function drop(...files) {
-  return page.page.evaluate(async (all) => {
-    const dataTransfer = new DataTransfer();
-    for (const [name, base64] of all) dataTransfer.items.add(new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name));
-    for (const type of ['dragenter', 'dragover', 'drop']) {
-      document.getElementById('view').dispatchEvent(new DragEvent(type, { dataTransfer, bubbles: true, cancelable: true }));
-    }
-  }, files.map(([name, bytes]) => [name, bytes.toString('base64')]));
-}
+const drop = (...files) => page.drop(...files);
 async function face(name, values) {
   await page.page.evaluate((v) => board.set(v), values);
   await page.settled();

@@ -76,6 +76,16 @@ export class Page {
   value(name) {
     return this.page.locator(`[role=meter][aria-label="${name}"]`).evaluate((bar) => Number(bar.getAttribute('aria-valuenow')));
   }
+  // Files [name, bytes] over the page, then let go, as a hand does it.
+  drop(...files) {
+    return this.page.evaluate(async (all) => {
+      const dataTransfer = new DataTransfer();
+      for (const [name, base64] of all) dataTransfer.items.add(new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name));
+      for (const type of ['dragenter', 'dragover', 'drop']) {
+        document.getElementById('view').dispatchEvent(new DragEvent(type, { dataTransfer, bubbles: true, cancelable: true }));
+      }
+    }, files.map(([name, bytes]) => [name, bytes.toString('base64')]));
+  }
   // Until the character has come to rest at what it was told: it follows within a few tenths of a second, and a picture
   // is drawn only when it moves.
   settled() {

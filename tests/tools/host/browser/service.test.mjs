@@ -1,6 +1,8 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 
+import { ARKIT } from '../../../../tools/host/character/shapes.js';
+import { arkitCharacter } from '../made_character.mjs';
 import { ALL_PIXELS, Browser, Service } from './harness.mjs';
 
 // The whole way: franck.mp4 before the mock camera, the real service, its line, `facewire serve`, WebSocket, the page.
@@ -66,6 +68,16 @@ test('neutral brings the face to rest, and release the performer back', async ()
   for (const name of ['jawOpen', 'mouthSmileLeft', 'eyeBlinkLeft']) assert.ok(Math.abs(await page.value(name)) < 0.02, name);
   await page.press('release');
   await page.shows('state-text', /^tracking$/);
+});
+
+test('what serve says of safety lets a character with a texture come in, in pieces', async () => {
+  const made = arkitCharacter(ARKIT);
+  Object.assign(made.json, { images: [{ uri: 'skin.png' }], textures: [{ source: 0 }] });
+  made.paint({ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } });
+  await page.drop(['head.gltf', made.gltf('head.bin')], ['head.bin', made.bin], ['skin.png', await page.shot('skin')]);
+  await page.shows('character-name', /^head\.gltf$/);
+  await page.press('character-otto');
+  await page.shows('character-name', /^Otto$/);
 });
 
 test('a server that goes is said, and taken up again when it is back', async () => {
