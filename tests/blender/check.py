@@ -45,6 +45,9 @@ def angle(a, b):
     return math.degrees((a.inverted() @ b).to_quaternion().angle)
 
 
+# Without a face the pose before it stays.
+for before, row in zip(rows, rows[1:]):
+    row.update({key: before[key] for key in row if row[key] == ""})
 for row in rows[::5] + [rows[-1]]:
     graph = at(row)
     if kind != "bones":

@@ -15,5 +15,8 @@ const header = ['frame', 't_us', 'age_us', 'state', 'jawOpen', 'eyeBlinkLeft', '
   'jaw.pitch', 'jaw.y'];
 const frame = (i) => [i, 1000 + Math.round((1e6 * i) / 24), 0, 'tracking', i / 20, (i % 5) / 4, 1 - i / 20, 1, i, 2 * i, -i, i / 2, -i / 20];
 put('take.csv', `${[header, ...Array.from({ length: 21 }, (_, i) => frame(i))].join('\n')}\n`);
+// A second and more without a face: rows without values, as facewire retarget writes them.
+const lost = (i) => [i, 1000 + Math.round((1e6 * i) / 24), 0, 'searching', ...header.slice(4).map(() => '')];
+put('gap.csv', `${[header, frame(0), frame(1), ...Array.from({ length: 40 }, (_, i) => lost(i + 2)), frame(42)].join('\n')}\n`);
 put('no_face.csv', `${[header, [0, 0, 0, 'searching', ...header.slice(4).map(() => '')]].join('\n')}\n`);
 put('short.csv', `${[header, frame(0), '1,2'].join('\n')}\n`);

@@ -49,6 +49,13 @@ test('what never moves has no track', () => {
   assert.ok(clip.tracks.every(({ name }) => !name.endsWith('.scale') && !name.endsWith('.position')));
 });
 
+test('a pose stays over a gap, until shortly before the next', () => {
+  const gap = [0, 40_000, 3_040_000].map((t_us, i) => ({ t_us, values: Float32Array.from([0, 0, 20 * (i === 2)]) }));
+  const { tracks: [track] } = animate(otto, new Driver(otto, rig), gap, 'gap').clip;
+  assert.deepEqual([...track.times], [0, 0.04, 3, 3.04].map(Math.fround));
+  assert.deepEqual([...track.values.slice(0, 12)], [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]);
+});
+
 test('the model is a copy at neutral, in metres, and the character is back at neutral', () => {
   assert.ok([...nodes.values()].every((node) => node.morphTargetInfluences?.every((w) => w === 0) ?? true));
   assert.ok(!nodes.has(otto.root.uuid));

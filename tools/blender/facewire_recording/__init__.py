@@ -25,6 +25,7 @@ bl_info = {
     "category": "Import-Export",
 }
 
+GAP_S, EASE_S = 0.2, 0.04  # so long a pose stays, and so long the way to the next takes then
 METRES = 0.01  # a recording is in centimetres
 # facewire: x to the character's left, y up, z out of its face. Blender's characters look along -y, z is up.
 IN_BLENDER = Matrix(((1, 0, 0), (0, 0, -1), (0, 1, 0)))
@@ -150,6 +151,11 @@ class Recording:
         table = numpy.array(rows)
         if not numpy.isfinite(table).all() or (numpy.diff(table[:, 0]) <= 0).any():
             raise BadInput(f"{path}: times must rise, and values be finite numbers")
+        # A lost line, or a performer who was gone, leaves the character where it was until the next pose.
+        held = numpy.flatnonzero(numpy.diff(table[:, 0]) > GAP_S)
+        stays = table[held].copy()
+        stays[:, 0] = table[held + 1, 0] - EASE_S
+        table = numpy.insert(table, held + 1, stays, axis=0)
         self.times = table[:, 0] - table[0, 0]
         self.values = {name: table[:, 1 + i] for i, name in enumerate(self.channels) if not (turned and name.startswith("head."))}
         self.channels = list(self.values)
@@ -216,8 +222,10 @@ def move_bones(recording, armatures, frames, told):
     zero = numpy.zeros(len(frames))
     wanted = {channel.rpartition(".")[0] for channel in recording.channels if channel.rpartition(".")[2] in AXES + TURNS}
     for armature in armatures:
-        found = {part: bone_of(part, armature) for part in sorted(wanted)
-                 if not any(part.startswith(bone) and any(t.startswith(shape) for t in told) for bone, shape in SAME.items())}
+        still = {part for part in wanted
+                 if any(part.startswith(bone) and any(t.startswith(shape) for t in told) for bone, shape in SAME.items())}
+        moved.update(f"{part}.{axis}" for part in still for axis in AXES + TURNS)  # by shapes
+        found = {part: bone_of(part, armature) for part in sorted(wanted - still)}
         found = {part: bone for part, bone in found.items() if bone}
         if not found:
             continue
@@ -229,7 +237,8 @@ def move_bones(recording, armatures, frames, told):
             rest = bone.bone.matrix_local.to_3x3().normalized()
             column = lambda axis, of=part: recording.values.get(f"{of}.{axis}", zero)
             angles = numpy.column_stack([column(a) for a in TURNS])
-            shifts = numpy.column_stack([column(a) for a in AXES])
+            # A head would leave its neck.
+            shifts = numpy.column_stack([column(a) if part != "head" else zero for a in AXES])
             bone.rotation_mode = "QUATERNION"
             path = f'pose.bones["{bpy.utils.escape_identifier(bone.name)}"]'
             if angles.any():

@@ -4,6 +4,7 @@ import { clone } from 'three/addons/utils/SkeletonUtils.js';
 
 const METRES = 0.01; // characters are in centimetres, glTF in metres
 const STILL = 1e-6;
+const GAP_US = 200e3, EASE_US = 40e3; // so long a pose stays, and so long the way to the next takes then
 
 const PARTS = [
   ['position', VectorKeyframeTrack, (node) => node.position.toArray()],
@@ -12,18 +13,29 @@ const PARTS = [
   ['morphTargetInfluences', NumberKeyframeTrack, (node) => node.morphTargetInfluences],
 ];
 
+// A lost line, or a performer who was gone, leaves the character where it was until the next pose.
+function held(frames) {
+  return frames.flatMap((frame, i) => {
+    const next = frames[i + 1];
+    return next && next.t_us - frame.t_us > GAP_US ? [frame, { ...frame, t_us: next.t_us - EASE_US }] : [frame];
+  });
+}
+
 // A recording as an animation of a character, whatever it is driven by: the character is moved through all frames, and what of
-// its nodes moved becomes tracks. frames: [{ t_us, values }]. Leaves the character at neutral.
+// its nodes moved becomes tracks. recorded: [{ t_us, values }]. Leaves the character at neutral.
 //
 //   model   a copy of the character at neutral, in metres
 //   clip    its AnimationClip, named as asked; times in seconds
-export function animate(character, driver, frames, name) {
+export function animate(character, driver, recorded, name) {
+  const frames = held(recorded);
   character.neutral();
   character.update?.(0);
   const nodes = [];
   character.root.traverse((node) => nodes.push(node));
   const copy = clone(character.root), copies = [];
   copy.traverse((node) => copies.push(node));
+  // The loader makes names simpler than they are in the file.
+  for (const node of copies) node.name = node.userData.name ?? node.name;
   const model = new Group();
   model.name = name;
   model.scale.setScalar(METRES);
@@ -54,5 +66,7 @@ export function animate(character, driver, frames, name) {
 
 // Such an animation as the bytes of a .glb (glTF 2.0): morph targets and nodes under the character's own names. In a browser.
 export function glb({ model, clip }) {
-  return new GLTFExporter().parseAsync(model, { binary: true, animations: [clip], onlyVisible: false });
+  // A skin need not name its skeleton, and three names one bone of it, which may not be above all others.
+  const withoutSkeletons = (writer) => ({ afterParse() { for (const skin of writer.json.skins ?? []) delete skin.skeleton; } });
+  return new GLTFExporter().register(withoutSkeletons).parseAsync(model, { binary: true, animations: [clip], onlyVisible: false });
 }

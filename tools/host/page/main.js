@@ -66,7 +66,7 @@ const takes = new Takes(() => link.rig, () => ({ character, driver }), () => {
 });
 link.onPose = (pose, now) => {
   plot.add(performance.now(), now);
-  takes.add(pose, values.gained(now));
+  takes.add(pose, values.gained(now), performance.now());
 };
 link.onLandmarks = (picture) => performer.show(picture);
 function choosePlotted() {

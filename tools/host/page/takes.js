@@ -16,6 +16,7 @@ function save(name, type, content) {
 export class Takes {
   #recorder = new Recorder();
   #name = '';
+  #problem = '';
   #rig;
 
   // rig() is that of the line, or null; stage() gives { character, driver }; restage() moves the character back to where it was.
@@ -27,7 +28,11 @@ export class Takes {
       const { character, driver } = stage();
       const animation = animate(character, driver, this.#recorder.frames, this.#name);
       restage();
-      save(`${this.#name}.glb`, 'model/gltf-binary', await glb(animation));
+      try {
+        save(`${this.#name}.glb`, 'model/gltf-binary', await glb(animation));
+      } catch (error) {
+        this.#problem = `This character cannot be saved: ${error.message}.`;
+      }
     };
     document.addEventListener('keydown', (e) => {
       if (e.key !== 'r' || e.ctrlKey || e.metaKey || e.altKey || e.target.matches('input:not([type=checkbox], [type=range])')) return;
@@ -35,7 +40,7 @@ export class Takes {
     });
   }
 
-  add(pose, values) { this.#recorder.add(pose, values); }
+  add(pose, values, now) { this.#recorder.add(pose, values, now); }
 
   tell() {
     const { running, frames, seconds, ended, rig } = this.#recorder;
@@ -46,7 +51,7 @@ export class Takes {
     $('save-csv').disabled = !kept;
     // The character is driven by the line's rig; another's values mean nothing to it.
     $('save-glb').disabled = !kept || this.#rig()?.rig_id !== rig.rig_id;
-    if (!running) put('record-note', kept ? `${frames.length} poses, ${seconds.toFixed(1)} s.${ended && ` Ended: ${ended}.`}` : '');
+    if (!running) put('record-note', kept ? `${frames.length} poses, ${seconds.toFixed(1)} s.${ended && ` Ended: ${ended}.`} ${this.#problem}`.trimEnd() : '');
   }
 
   #toggle() {
@@ -54,6 +59,7 @@ export class Takes {
       this.#recorder.stop();
     } else {
       this.#recorder.start(this.#rig());
+      this.#problem = '';
       this.#name = `facewire-${new Date().toISOString().slice(0, 19).replace(/[T:]/g, '-')}`;
     }
     this.tell();
