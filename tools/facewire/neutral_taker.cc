@@ -33,7 +33,7 @@ NeutralTaker::NeutralTaker(const std::string& option, const std::string& range)
     throw app::Failure("the memory for the neutral is too small");
 }
 
-bool NeutralTaker::Add(const Moment& moment) {
+bool NeutralTaker::Add(const PerformanceFrame& moment) {
   seen_ = moment.frame + 1;
   const bool inside =
       last_ == 0 ? moment.t_us < kDefaultUs : moment.frame >= first_ && moment.frame < last_;

@@ -23,7 +23,7 @@ class NeutralTaker {
 
   // Call with every frame from the first on, until it returns true: the last one of the range was
   // seen.
-  bool Add(const Moment& moment);
+  bool Add(const PerformanceFrame& moment);
   // Throws BadInput when the recording ended before the range did, or showed no face in it.
   retarget::Neutral Take();
 

@@ -20,10 +20,10 @@ class Video final : public Performance {
     if (smoothing == Smoothing::kAsTheService) filter_.emplace(filter::FilterConfig{});
   }
 
-  std::optional<Moment> Next() override {
+  std::optional<PerformanceFrame> Next() override {
     const auto seen = source_->Next();
     if (!seen) return std::nullopt;
-    Moment moment{seen->frame, seen->t_us, std::nullopt};
+    PerformanceFrame moment{seen->frame, seen->t_us, std::nullopt};
     const auto face = seen->face ? Follow(*seen->face) : Result<FacePose>(Errc::kNoFace);
     if (face) {
       moment.face = *face;
@@ -58,10 +58,10 @@ class Markers final : public Performance {
                             : FindMarkers(take_.names, rigid, path, "--rigid"),
               path) {}
 
-  std::optional<Moment> Next() override {
+  std::optional<PerformanceFrame> Next() override {
     if (next_ == take_.frames.size()) return std::nullopt;
     const std::vector<Point3>& frame = take_.frames[next_];
-    Moment moment{take_.Number(next_), take_.TimeUs(next_), std::nullopt};
+    PerformanceFrame moment{take_.Number(next_), take_.TimeUs(next_), std::nullopt};
     ++next_;
     const auto head = head_.Find(frame);
     if (!head ||

@@ -15,7 +15,7 @@
 namespace facewire::tools {
 
 // One frame of a recorded performance, with head motion removed; no face where none was seen.
-struct Moment {
+struct PerformanceFrame {
   std::uint64_t frame = 0;
   std::int64_t t_us = 0;  // since the recording's first frame
   std::optional<FacePose> face;
@@ -26,7 +26,7 @@ class Performance {
  public:
   virtual ~Performance() = default;
   // nullopt at the end. Throws BadInput, Failure.
-  virtual std::optional<Moment> Next() = 0;
+  virtual std::optional<PerformanceFrame> Next() = 0;
 };
 
 // What is done to landmarks over time. Stills are no film: smoothing would mix one into the next.

@@ -96,7 +96,7 @@ class Character {
     return report_.Lines(names);
   }
 
-  void Write(const Moment& moment, PoseWriter& writer) {
+  void Write(const PerformanceFrame& moment, PoseWriter& writer) {
     if (!moment.face) {
       was_lost_ = true;
       writer.WriteLost(moment.frame, moment.t_us);
@@ -147,7 +147,7 @@ void Retarget(const RetargetOptions& options) {
   const auto writer = OpenPoseWriter(options.out, character->rig());
 
   // Frames wait until the neutral is known, and are written from the first one on.
-  std::deque<Moment> waiting;
+  std::deque<PerformanceFrame> waiting;
   bool has_neutral = false;
   std::size_t frames = 0;
   std::size_t faces = 0;
@@ -155,7 +155,7 @@ void Retarget(const RetargetOptions& options) {
   const auto take_neutral = [&] {
     character->Use(taker.Take());
     has_neutral = true;
-    for (const Moment& moment : waiting) character->Write(moment, *writer);
+    for (const PerformanceFrame& moment : waiting) character->Write(moment, *writer);
     waiting.clear();
   };
   while (const auto moment = performance->Next()) {

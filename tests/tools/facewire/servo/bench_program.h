@@ -11,14 +11,9 @@
 
 #include "tests/app/process.h"
 #include "tests/app/scratch.h"
+#include "tests/tools/facewire/run.h"
 
 namespace facewire::tools {
-
-struct Outcome {
-  int code = -1;
-  std::string out;
-  std::string err;
-};
 
 // Simulated buses on pseudo-terminals, and facewire to be run against them, in a scratch folder.
 class ServoBench : public testing::Test {
