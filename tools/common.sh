@@ -19,17 +19,24 @@ usage() {
   exit 2
 }
 
-# build PRESET TARGET...: configures and builds; a compiler cache is used when there is one.
-build() {
-  local preset=$1
-  shift
+# configure PRESET [CMAKE-OPTION...]: a compiler cache is used when there is one.
+configure() {
   local cache=()
   if command -v ccache >/dev/null; then
     cache=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    # What ccache asks for where headers are precompiled.
+    export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}
   fi
-  say "configuring preset $preset"
-  cmake --preset "$preset" "${cache[@]}" >"$(log configure)" 2>&1 ||
-    { cat "$(log configure)" >&2; die "configuring preset $preset failed, see above"; }
+  say "configuring preset $*"
+  cmake --preset "$@" "${cache[@]}" >"$(log "configure-$1")" 2>&1 ||
+    { cat "$(log "configure-$1")" >&2; die "configuring preset $1 failed, see above"; }
+}
+
+# build PRESET TARGET...: configures and builds.
+build() {
+  local preset=$1
+  shift
+  configure "$preset"
   say "building preset $preset: $*"
   cmake --build --preset "$preset" --parallel "$(nproc)" --target "$@" ||
     die "building preset $preset failed, see above"
