@@ -156,21 +156,42 @@ Finding CheckDevice(const std::string& what, const std::string& device, const st
           "end the program that holds it, or unplug it and plug it in again"};
 }
 
+// A serial port that the configuration names under `key`; `missing` is the verdict when it is not
+// there.
+Finding CheckPort(const std::string& what, const std::string& path, const std::string& key,
+                  Verdict missing) {
+  if (fs::exists(path)) return CheckDevice(what, path, "dialout");
+  return {what, missing, "there is no port " + path,
+          "plug it in, or correct " + key + "; the serial ports below are there"};
+}
+
+constexpr std::string_view kSerial = "serial:";
+
 // The ports of the configuration's servo buses.
 void CheckBuses(const app::Config& config, std::vector<Finding>& findings) {
-  constexpr std::string_view kSerial = "serial:";
   for (const app::ServoBusConfig& bus : config.buses) {
     if (!bus.port.starts_with(kSerial)) continue;  // a pseudo-terminal is made when it is needed
-    const std::string what = "bus " + bus.name;
-    const std::string path = bus.port.substr(kSerial.size());
-    if (fs::exists(path)) {
-      findings.push_back(CheckDevice(what, path, "dialout"));
-    } else {
-      findings.push_back({what, Verdict::kFail, "there is no port " + path,
-                          "plug it in, or correct the [[bus]]'s port; the serial ports below are "
-                          "there"});
-    }
+    findings.push_back(CheckPort("bus " + bus.name, bus.port.substr(kSerial.size()),
+                                 "the [[bus]]'s port", Verdict::kFail));
   }
+}
+
+// The line to the host: whether it is there, and who understands what it speaks.
+Finding CheckHostLine(const app::HostConfig& host) {
+  const std::string what = "host line";
+  if (host.line == "none") return {what, Verdict::kOk, "none: values go to servos alone", ""};
+  const std::string speaks =
+      host.protocol == app::HostProtocol::kOsc
+          ? "OSC over SLIP: the page, facewire monitor and the bridges cannot read it"
+          : "native protocol";
+  if (!host.line.starts_with(kSerial)) {
+    return {what, Verdict::kOk, host.line + ", which the service makes; " + speaks, ""};
+  }
+  // The service waits for its host, so nothing has to be put right before it starts.
+  Finding finding =
+      CheckPort(what, host.line.substr(kSerial.size()), "[host] line", Verdict::kWarn);
+  finding.found += "; " + std::to_string(host.baud) + " baud, " + speaks;
+  return finding;
 }
 
 void CheckDevices(const std::string& what, std::initializer_list<std::string_view> prefixes,
@@ -279,7 +300,10 @@ void Doctor(const DoctorOptions& options) {
   findings.push_back(CheckNetworks(options));
   const std::optional<app::Config> config = CheckConfig(options, findings);
   CheckCameras(findings);
-  if (config) CheckBuses(*config, findings);
+  if (config) {
+    findings.push_back(CheckHostLine(config->host));
+    CheckBuses(*config, findings);
+  }
   CheckDevices("serial port", {"ttyACM", "ttyUSB", "ttyAMA", "ttyGS"}, "dialout", findings);
   std::ranges::move(CheckGpio(config ? &config->gpio : nullptr, hal::gpiod::SystemLibrary()),
                     std::back_inserter(findings));

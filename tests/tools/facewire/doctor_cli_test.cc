@@ -43,6 +43,26 @@ TEST(FacewireDoctor, LooksAtThePortsOfServoBuses) {
                                      "it"));
 }
 
+TEST(FacewireDoctor, LooksAtTheHostLineAndSaysWhoReadsItsProtocol) {
+  const Scratch scratch;
+  const auto doctor = [&](const std::string& host) {
+    const std::string rig = "[character]\nrig = \"" FACEWIRE_SOURCE_DIR "/app/share/otto.toml\"\n";
+    const std::string config = scratch.Write("f.toml", rig + "[host]\n" + host);
+    return RunFacewire({"doctor", "--networks", FACEWIRE_ASSETS "/networks", "--config", config})
+        .out;
+  };
+  EXPECT_THAT(
+      doctor("line = \"serial:/dev/no-such-port\"\nbaud = 57600\n"),
+      HasSubstr("WARN  host line      there is no port /dev/no-such-port; 57600 baud, native "
+                "protocol\n                     -> plug it in, or correct [host] line"));
+  EXPECT_THAT(
+      doctor("line = \"pty:/tmp/face\"\nprotocol = \"osc\"\n"),
+      HasSubstr("OK    host line      pty:/tmp/face, which the service makes; OSC over SLIP: the "
+                "page, facewire monitor and the bridges cannot read it\n"));
+  EXPECT_THAT(doctor("line = \"none\"\n"),
+              HasSubstr("OK    host line      none: values go to servos alone\n"));
+}
+
 // Whatever cameras this machine has: a list and success, or one line that says why not.
 TEST(FacewireDoctor, ListsTheCamerasAndNothingElse) {
   for (const bool json : {false, true}) {
