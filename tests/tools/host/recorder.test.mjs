@@ -81,9 +81,9 @@ test('ten minutes end a recording, which keeps what it has and says why', () => 
   assert.deepEqual([recorder.running, recorder.frames.length, recorder.ended], [false, 2, 'ten minutes are the most']);
 });
 
-test('its table is that of facewire monitor --csv', () => {
+test('its table is that of facewire monitor --csv, on the clock of the device', () => {
   const recorder = started();
   add(recorder, 1000, [0.1, -2.5]);
   add(recorder, 41_000, [1 / 3, 0], 41, { frame_seq: 8, state: 3 });
-  assert.equal(recorder.csv(), 'frame,t_us,age_us,state,jawOpen,"a,""b"""\n7,0,12000,tracking,0.1,-2.5\n8,40000,12000,holding,0.333333,0\n');
+  assert.equal(recorder.csv(), 'frame,t_us,age_us,state,jawOpen,"a,""b"""\n7,1000,12000,tracking,0.1,-2.5\n8,41000,12000,holding,0.333333,0\n');
 });

@@ -10,7 +10,8 @@ export class Recorder {
   rig = null;
   frames = []; // [{ frame, t_us from the first, age_us, state, values in the channels' units }]
   ended = ''; // why it ended by itself
-  #offset = 0; // of the device's clock
+  #began = 0; // the first picture, on the device's clock
+  #offset = 0; // of the device's clock now
   #arrived = 0;
 
   start(rig) {
@@ -32,7 +33,7 @@ export class Recorder {
     }
     const captured = Number(pose.captured_us), last = this.frames.at(-1);
     const passed = last ? captured - this.#offset - last.t_us : 0, elapsed = 1000 * (now - this.#arrived);
-    if (!last) this.#offset = captured;
+    if (!last) this.#began = this.#offset = captured;
     // Another clock (a device that started anew, another line, a recording that begins again): it steps back, or forward more
     // than the time that passed here. A picture comes late, but never early.
     else if (passed < 0 || passed > elapsed + EARLY_US) this.#offset = captured - last.t_us - Math.max(1000, elapsed);
@@ -46,11 +47,11 @@ export class Recorder {
     this.frames.push({ frame: pose.frame_seq, t_us, age_us: pose.age_us, state: STATES[pose.state], values: Float32Array.from(values) });
   }
 
-  // As `facewire monitor --csv` writes it.
+  // As `facewire monitor --csv` writes it, on the device's clock: what else the device recorded can be laid beside it.
   csv() {
     const name = (text) => (/[,"]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
     const number = (value) => String(Number(value.toFixed(6)));
-    const lines = this.frames.map(({ frame, t_us, age_us, state, values }) => [frame, t_us, age_us, state, ...Array.from(values, number)]);
+    const lines = this.frames.map(({ frame, t_us, age_us, state, values }) => [frame, this.#began + t_us, age_us, state, ...Array.from(values, number)]);
     return `${[['frame', 't_us', 'age_us', 'state', ...this.rig.channels.map((c) => name(c.name))], ...lines].map((l) => l.join()).join('\n')}\n`;
   }
 }

@@ -49,7 +49,7 @@ test('the table has a line for each pose, 24 a second', async () => {
   assert.deepEqual(header.slice(0, 4), ['frame', 't_us', 'age_us', 'state']);
   assert.equal(header.length - 4, await page.page.locator('[role=meter]').count());
   const times = lines.map((line) => Number(line[1]));
-  assert.ok(times[0] === 0 && Math.abs(times.at(-1) / (times.length - 1) / 41667 - 1) < 0.05, times.join());
+  assert.ok(Math.abs((times.at(-1) - times[0]) / (times.length - 1) / 41667 - 1) < 0.05, times.join());
 });
 
 test('the character is saved with its animation, at the same times with the same weights', async () => {
@@ -67,7 +67,7 @@ test('the character is saved with its animation, at the same times with the same
   const sampler = animation.samplers[channel.sampler];
   const times = numbers(sampler.input), weights = numbers(sampler.output), names = meshes[nodes[mouth].mesh].extras.targetNames;
   assert.equal(times.length, lines.length);
-  lines.forEach((line, i) => assert.ok(Math.abs(times[i] - line[1] / 1e6) < 1e-5));
+  lines.forEach((line, i) => assert.ok(Math.abs(times[i] - (line[1] - lines[0][1]) / 1e6) < 1e-5));
   for (const shape of ['mouthSmileLeft', 'mouthPucker', 'mouthFunnel']) {
     lines.forEach((line, i) => {
       const [told, is] = [Number(line[header.indexOf(shape)]), weights[i * names.length + names.indexOf(shape)]];
