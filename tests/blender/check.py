@@ -1,4 +1,4 @@
-"""Inside Blender: what the add-on made of a recording, against what it should be: -- arkit|shapes|bones FILE.csv CASES.json ADD-ON
+"""Inside Blender: what the add-on made of a recording, against what it should be: -- arkit|shapes|bones FILE.csv CHARACTER.glb CASES.json ADD-ON
 
 arkit: shape keys and a neck; shapes: no bones; bones: no shape keys.
 """
@@ -11,13 +11,14 @@ import sys
 import bpy
 from mathutils import Euler, Matrix, Quaternion
 
-kind, take, cases, addon = sys.argv[sys.argv.index("--") + 1:]
+kind, take, character, cases, addon = sys.argv[sys.argv.index("--") + 1:]
 spec = importlib.util.spec_from_file_location("facewire_recording", addon)
 recording = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(recording)
 scene = bpy.context.scene
 armature = next((o for o in bpy.data.objects if o.type == "ARMATURE"), None)
 faces = [o for o in bpy.data.objects if o.type == "MESH" and o.data.shape_keys]
+resting = next((o for o in recording.import_character(character) if o.type == "ARMATURE"), None)  # the same, told nothing
 rows = list(csv.DictReader(open(take, newline="", encoding="utf-8")))
 fps = scene.render.fps / scene.render.fps_base
 
@@ -31,7 +32,7 @@ def at(row):
 def turned(bone):
     """By how much, in facewire's axes: an independent way, from matrices of the world."""
     now = (armature.matrix_world @ armature.pose.bones[bone].matrix).to_3x3().normalized()
-    rest = (armature.matrix_world @ armature.data.bones[bone].matrix_local).to_3x3().normalized()
+    rest = (resting.matrix_world @ resting.pose.bones[bone].matrix).to_3x3().normalized()
     axes = Matrix.Rotation(math.radians(-90), 3, "X")  # Blender's z up to y up
     return axes @ (now @ rest.inverted()) @ axes.inverted()
 

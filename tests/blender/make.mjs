@@ -10,6 +10,11 @@ const put = (name, content) => writeFileSync(join(folder, name), content);
 put('arkit.glb', arkitCharacter(ARKIT).glb());
 put('spelled.glb', arkitCharacter(ARKIT.map((n) => `Face.${n.replace(/Left$/, '_L').replace(/Right$/, '_R')}`)).glb());
 put('bones.glb', bonesCharacter().glb());
+// Its mesh bound with a straight neck, and resting with a bent one and an open mouth.
+const posed = bonesCharacter(), { nodes } = posed.json, rest = (name) => nodes.find((node) => node.name === name);
+rest('Neck').rotation = [Math.sin(Math.PI / 18), 0, 0, Math.cos(Math.PI / 18)]; // 20 degrees of pitch
+rest('Jaw').translation[1] -= 0.01;
+put('posed.glb', posed.glb());
 
 const header = ['frame', 't_us', 'age_us', 'state', 'jawOpen', 'eyeBlinkLeft', 'mouthSmileRight', 'unheard_of', 'neck.pitch', 'neck.yaw', 'neck.roll',
   'jaw.pitch', 'jaw.y'];

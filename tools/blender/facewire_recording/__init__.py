@@ -149,6 +149,8 @@ class Recording:
         if not rows:
             raise BadInput(f"{path}: there is no line with values")
         table = numpy.array(rows)
+        # A camera that hands out the same picture twice: what the character was told last.
+        table = table[numpy.append(numpy.diff(table[:, 0]) != 0, True)]
         if not numpy.isfinite(table).all() or (numpy.diff(table[:, 0]) <= 0).any():
             raise BadInput(f"{path}: times must rise, and values be finite numbers")
         # A lost line, or a performer who was gone, leaves the character where it was until the next pose.
@@ -229,12 +231,16 @@ def move_bones(recording, armatures, frames, told):
         found = {part: bone for part, bone in found.items() if bone}
         if not found:
             continue
+        # The character may rest in another pose than the one its mesh is bound in; an animation of its own is no rest.
+        animated = armature.animation_data and armature.animation_data.action
         action = new_action(armature, f"{recording.path.stem}_{armature.name}")
         world = armature.matrix_world
         into = world.to_quaternion().to_matrix().inverted()  # from Blender's axes to the armature's
         scale = sum(world.to_scale()) / 3
         for part, bone in found.items():
-            rest = bone.bone.matrix_local.to_3x3().normalized()
+            basis, posed = (Matrix(), bone.bone.matrix_local) if animated else (bone.matrix_basis.copy(), bone.matrix)
+            own = basis.to_3x3().normalized()
+            rest = posed.to_3x3().normalized() @ own.inverted()  # the axes that its own pose is in, in the armature's
             column = lambda axis, of=part: recording.values.get(f"{of}.{axis}", zero)
             angles = numpy.column_stack([column(a) for a in TURNS])
             # A head would leave its neck.
@@ -244,12 +250,12 @@ def move_bones(recording, armatures, frames, told):
             if angles.any():
                 turns = []
                 for one in angles:
-                    q = (rest.inverted() @ into @ turn(*one) @ into.inverted() @ rest).to_quaternion()
+                    q = (rest.inverted() @ into @ turn(*one) @ into.inverted() @ rest @ own).to_quaternion()
                     turns.append(-q if turns and q.dot(turns[-1]) < 0 else q)  # the short way between two keys
                 for i in range(4):
                     add_curve(action, f"{path}.rotation_quaternion", i, frames, [q[i] for q in turns], bone.name)
             if shifts.any():
-                places = [rest.inverted() @ into @ IN_BLENDER @ Vector(one) * (METRES / scale) for one in shifts]
+                places = [basis.translation + rest.inverted() @ into @ IN_BLENDER @ Vector(one) * (METRES / scale) for one in shifts]
                 for i in range(3):
                     add_curve(action, f"{path}.location", i, frames, [p[i] for p in places], bone.name)
             moved.update(f"{part}.{axis}" for axis in AXES + TURNS if f"{part}.{axis}" in recording.values)
@@ -260,6 +266,7 @@ def apply(recording, objects, scene):
     """Moves `objects` as the recording says, from the scene's first frame on. Returns the channels that moved nothing."""
     meshes = [obj for obj in objects if obj.type == "MESH"]
     armatures = [obj for obj in objects if obj.type == "ARMATURE"]
+    bpy.context.view_layer.update()  # an imported pose counts from here on
     fps = scene.render.fps / scene.render.fps_base
     frames = scene.frame_start + recording.times * fps
     shown = move_shapes(recording, meshes, Names(), frames)
