@@ -97,6 +97,25 @@ test('VRM 1: a preset for both eyes, several shapes of one expression, and a cus
   assert.deepEqual(character.leftToShapes, ['LeftEye', 'RightEye']); // it looks by expressions
 });
 
+for (const [version, make, bonesOf] of [
+  [0, vrm0Character, (json) => json.extensions.VRM.humanoid], [1, vrm1Character, (json) => json.extensions.VRMC_vrm.humanoid],
+]) {
+  test(`VRM ${version} without the bones that VRM asks for, all the way to none: a face is a face`, async () => {
+    for (const kept of [['hips', 'neck', 'head'], ['head'], []]) {
+      const made = make(), { json } = made, humanoid = bonesOf(json);
+      humanoid.humanBones = Array.isArray(humanoid.humanBones) ? humanoid.humanBones.filter(({ bone }) => kept.includes(bone))
+        : Object.fromEntries(Object.entries(humanoid.humanBones).filter(([bone]) => kept.includes(bone)));
+      for (const [i, node] of json.nodes.entries()) if (node.mesh === undefined) node.name = `bone ${i}`; // found by their roles, if at all
+      const character = await load('face.vrm', made.glb());
+      const driver = new Driver(character, rig([], ['eyeBlinkLeft', 'eyeBlinkRight', 'jawOpen']));
+      assert.deepEqual(driver.unused, []);
+      const moved = weights(character, driver, [1, 1, 0.5]);
+      assert.equal(moved.filter((w) => w > 0).length, version === 0 ? 4 : 3, moved.join());
+      assert.deepEqual([...character.aliases.values()], kept.filter((bone) => bone === 'neck' || bone === 'head'));
+    }
+  });
+}
+
 test('what swings by itself goes on for a while after the head has turned, and hangs as in metres', async () => {
   const character = await load('puppet.vrm', vrm1Character().glb());
   const hair = character.root.getObjectByName('hair_1'), turn = () => hair.quaternion.toArray();

@@ -1,6 +1,6 @@
 /*! The meshopt decoder, of meshoptimizer: Copyright (C) 2016-2026, by Arseny Kapoulkine, MIT License */
-import { LoadingManager } from 'three';
-import { VRMLoaderPlugin } from '@pixiv/three-vrm';
+import { LoadingManager, Object3D } from 'three';
+import { VRMHumanoidLoaderPlugin, VRMLoaderPlugin } from '@pixiv/three-vrm';
 import { MeshoptDecoder } from 'three/examples/jsm/libs/meshopt_decoder.module.js';
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 
@@ -17,6 +17,15 @@ const COMPRESSED = new Map([
 const isModel = ({ name }) => /\.(glb|gltf|vrm)$/i.test(name);
 const baseName = (uri) => decodeURIComponent(uri).replace(/[?#].*$/, '').replace(/^.*[/\\]/, '').toLowerCase();
 const listed = (names) => names.join(', ').replace(/, ([^,]*)$/, ' and $1');
+
+// A face needs no legs: VRM asks for a whole body, and three-vrm refuses a file without. It looks from a head, so there is a
+// stand-in for one, which is not of the file.
+class AnyBones extends VRMHumanoidLoaderPlugin {
+  _ensureRequiredBonesExist(bones) {
+    bones.head ??= { node: new Object3D() };
+    return bones;
+  }
+}
 
 // The JSON of a .glb, .vrm or .gltf; throws BadCharacter where the container or the JSON is wrong.
 function jsonOf(bytes, name) {
@@ -68,7 +77,8 @@ export async function loadCharacter(files) {
     return urls.get(file);
   });
   const loader = new GLTFLoader(manager).setMeshoptDecoder(MeshoptDecoder);
-  loader.register((parser) => new VRMLoaderPlugin(parser, { autoUpdateHumanBones: false }));
+  const bones = { autoUpdateHumanBones: false };
+  loader.register((parser) => new VRMLoaderPlugin(parser, { ...bones, humanoidPlugin: new AnyBones(parser, bones) }));
   try {
     check(jsonOf(bytes, name), name, beside);
     return new LoadedCharacter(await loader.parseAsync(bytes, ''), name);

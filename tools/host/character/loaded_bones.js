@@ -41,7 +41,7 @@ export function findBones(gltf) {
   const { parser, userData: { vrm } } = gltf, found = new Map();
   const nameOf = (bone) => parser.json.nodes[parser.associations.get(bone)?.nodes]?.name ?? bone.name;
   const take = (bone, role) => {
-    if (!bone || !role || [...found.values()].some((f) => f.bone === bone)) return;
+    if (!parser.associations.has(bone) || !role || [...found.values()].some((f) => f.bone === bone)) return;
     const part = partName(role);
     if (!found.has(part)) found.set(part, { bone, name: nameOf(bone) });
   };
