@@ -111,7 +111,7 @@ void AddServos(const StatusReport& report, const ServoReport& now, Json& o) noex
     o.Number("load", feedback.load, 2).Number("voltage_v", feedback.voltage_v, 1);
     o.Number("factor", static_cast<double>(feedback.factor), 2);
     o.Text("reason", feedback.reason == bus::Reason::kNone ? "" : bus::Name(feedback.reason));
-    o.Text("faults", feedback.faults == 0 ? "" : FaultWords(feedback.faults).data());
+    o.Text("faults", feedback.faults == 0 ? "" : FaultWords(feedback.faults, ",").data());
     o.Count("lost", feedback.lost).End('}');
   }
   o.End(']');

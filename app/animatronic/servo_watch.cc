@@ -154,19 +154,20 @@ void ServoWatch::TellFindings(const ServoReport& report) noexcept {
     servos_[finding.servo].settings |= bit;
     std::array<char, kMaxNameLength + 1> name;
     (void)Chars(rig_.servos[finding.servo].name, name);
-    const Words wanted = SettingValue(finding.setting, finding.wanted);
     const char* word = SettingWord(finding.setting);
-    std::array<char, 200> command{};
+    std::array<char, 240> command{};
     if (*word != '\0') {
       (void)std::snprintf(command.data(), command.size(), ": facewire servo set %s %s %s",
-                          name.data(), word, wanted.data());
+                          name.data(), word,
+                          SettingArgument(finding.setting, finding.wanted).data());
     }
     Text text;
     (void)std::snprintf(
         text.data(), text.size(), "servo %s (bus %s, id %u): its %s is %s and should be %s%s%s",
         name.data(), BusOf(finding.servo).name.c_str(),
         static_cast<unsigned>(rig_.servos[finding.servo].id), bus::Name(finding.setting),
-        SettingValue(finding.setting, finding.found).data(), wanted.data(),
+        SettingWords(finding.setting, finding.found).data(),
+        SettingWords(finding.setting, finding.wanted).data(),
         finding.refused ? "; it is left limp until then" : "", command.data());
     journal_.Write(Event::kServo, text.data());
   }

@@ -46,6 +46,10 @@ class Bus {
   // When the next byte will have reached the host; Time::max() when none is on its way yet.
   Time NextTransmit() const;
 
+  // Who hosts the bus has set another rate on its line. Servos of a chain hear at their own alone.
+  void SetBaud(double baud) { line_.SetBaud(baud); }
+  double baud() const { return line_.baud(); }
+
   std::size_t servos() const { return models_.size(); }
   ServoModel& servo(std::size_t index) { return models_[index]; }
   const ServoModel& servo(std::size_t index) const { return models_[index]; }

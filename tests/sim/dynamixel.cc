@@ -89,8 +89,7 @@ DynamixelOptions::DynamixelOptions(const DynamixelModel& servo_model) : model(&s
 }
 
 Dynamixel::Dynamixel(const DynamixelOptions& options)
-    : Bus(options, options.ids.size(), 2048, kCountsPerRad, /*half_duplex=*/true),
-      baud_(options.baud) {
+    : Bus(options, options.ids.size(), 2048, kCountsPerRad, /*half_duplex=*/true) {
   chain_.reserve(options.ids.size());
   for (std::size_t i = 0; i < options.ids.size(); ++i) {
     chain_.emplace_back(
@@ -98,7 +97,7 @@ Dynamixel::Dynamixel(const DynamixelOptions& options)
         [this, i](EventKind kind, int detail) { Happened(kind, static_cast<int>(i), detail); });
     DynamixelTable& table = chain_[i].table();
     table.Set(dynamixel::kId, options.ids[i]);
-    for (std::int32_t rate = 0; rate < 8 && chain_[i].baud() != baud_; ++rate) {
+    for (std::int32_t rate = 0; rate < 8 && chain_[i].baud() != baud(); ++rate) {
       table.Set(dynamixel::kBaudRate, rate);
     }
     chain_[i].Start();
@@ -115,7 +114,7 @@ void Dynamixel::SetEntry(std::size_t index, std::uint16_t address, std::int32_t 
 }
 
 bool Dynamixel::Hears(std::size_t index) const {
-  return Answers(index) && chain_[index].baud() == baud_;
+  return Answers(index) && chain_[index].baud() == baud();
 }
 
 int Dynamixel::IndexOf(std::uint8_t id) const {

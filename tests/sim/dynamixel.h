@@ -63,7 +63,6 @@ class Dynamixel final : public Bus {
   bool Hears(std::size_t index) const;
   int IndexOf(std::uint8_t id) const;  // -1: nobody who hears
 
-  double baud_;
   std::vector<DynamixelServo> chain_;
   std::vector<std::uint8_t> packet_;  // from its first FF
   Nanos last_byte_ = 0;

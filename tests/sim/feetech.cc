@@ -37,19 +37,18 @@ FeetechOptions::FeetechOptions(const FeetechSeries& servo_series) : series(&serv
 Feetech::Feetech(const FeetechOptions& options)
     : Bus(options, options.ids.size(), options.series->counts / 2.0,
           options.series->counts / options.series->turn_rad, /*half_duplex=*/true),
-      baud_(options.baud),
       middle_(options.series->counts / 2.0),
       counts_per_rad_(options.series->counts / options.series->turn_rad) {
   chain_.reserve(options.ids.size());
   for (std::size_t i = 0; i < options.ids.size(); ++i) {
     chain_.emplace_back(
-        *options.series, options.ids[i], baud_, Bus::servo(i),
+        *options.series, options.ids[i], baud(), Bus::servo(i),
         [this, i](EventKind kind, int detail) { Happened(kind, static_cast<int>(i), detail); });
   }
 }
 
 bool Feetech::Hears(std::size_t index) const {
-  return Answers(index) && chain_[index].baud() == baud_;
+  return Answers(index) && chain_[index].baud() == baud();
 }
 
 void Feetech::OnMillisecond(Time) {

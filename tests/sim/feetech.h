@@ -45,7 +45,7 @@ class Feetech final : public Bus {
   Nanos Answer(std::size_t index, std::span<const std::uint8_t> params, Nanos at);
   bool Hears(std::size_t index) const;
 
-  double baud_, middle_, counts_per_rad_;
+  double middle_, counts_per_rad_;
   std::vector<FeetechServo> chain_;
   std::vector<std::uint8_t> packet_;  // from its first FF
   Nanos last_byte_ = 0;

@@ -34,7 +34,7 @@ void Line::Collide(std::deque<Byte>& others, Byte& byte) {
 void Line::FromHost(std::span<const std::byte> bytes, Nanos now) {
   Nanos start = std::max(now, host_free_);
   for (const std::byte b : bytes) {
-    Byte byte{start, start + byte_ns_, std::to_integer<std::uint8_t>(b)};
+    Byte byte{start, start + byte_ns(), std::to_integer<std::uint8_t>(b)};
     if (half_duplex_) Collide(to_host_, byte);
     Put(to_servos_, byte);
     if (echo_) Put(to_host_, byte);
@@ -48,7 +48,7 @@ Nanos Line::FromServo(std::span<const std::uint8_t> bytes, Nanos start) {
     start += static_cast<Nanos>(random_.Between(0, faults_.late_ms) * 1e6);
   }
   for (const std::uint8_t value : bytes) {
-    Byte byte{start, start + byte_ns_, value};
+    Byte byte{start, start + byte_ns(), value};
     if (half_duplex_) {
       Collide(to_servos_, byte);
       Collide(to_host_, byte);
@@ -65,7 +65,7 @@ void Line::Noise(Nanos now, Nanos passed) {
   };
   if (busy(to_servos_) || busy(to_host_)) return;
   if (!random_.Chance(faults_.noise_per_s * static_cast<double>(passed) * 1e-9)) return;
-  const Byte byte{now, now + byte_ns_, random_.Byte()};
+  const Byte byte{now, now + byte_ns(), random_.Byte()};
   to_servos_.push_back(byte);
   to_host_.push_back(byte);
 }

@@ -28,14 +28,12 @@ class Line {
 
   // With `echo` the host's adapter gives it its own bytes back, too.
   Line(double baud, bool half_duplex, bool echo, const LineFaults& faults, std::uint64_t seed)
-      : byte_ns_(static_cast<Nanos>(10e9 / baud)),
-        half_duplex_(half_duplex),
-        echo_(echo),
-        faults_(faults),
-        random_(seed) {}
+      : baud_(baud), half_duplex_(half_duplex), echo_(echo), faults_(faults), random_(seed) {}
 
   LineFaults& faults() { return faults_; }
-  Nanos byte_ns() const { return byte_ns_; }
+  double baud() const { return baud_; }
+  void SetBaud(double baud) { baud_ = baud; }  // of bytes from now on
+  Nanos byte_ns() const { return static_cast<Nanos>(10e9 / baud_); }
 
   // The host's bytes; the first starts at `now`, or when the ones before are out.
   void FromHost(std::span<const std::byte> bytes, Nanos now);
@@ -59,7 +57,7 @@ class Line {
   void Put(std::deque<Byte>& queue, Byte byte);
   void Collide(std::deque<Byte>& others, Byte& byte);
 
-  Nanos byte_ns_;
+  double baud_;
   bool half_duplex_;
   bool echo_;
   LineFaults faults_;

@@ -70,7 +70,7 @@ void Declare(CLI::App& app, Given& given) {
       "of the line (default 1000000 on chains; on a Maestro's USB port it does not matter)");
   app.add_flag("--echo", given.echo, "the host gets its own bytes back, too");
   app.add_flag("--strict-baud", given.strict_baud,
-               "a chain hears only a host that has set its baud rate on the line");
+               "servos of a chain hear only a host that has set their own baud rate on the line");
   app.add_flag("--crc", given.crc, "Maestro: packets end with a CRC");
   app.add_option("--timeout-ms", given.timeout_ms, "Maestro: serial timeout, 0 is off");
   app.add_option("--device", given.device, "Maestro: device number");
@@ -232,7 +232,7 @@ SimBusOptions Parse(CLI::App& app, const Given& given,
   }
   options.link = given.link;
   options.trace = given.trace;
-  if (given.strict_baud) options.strict_baud = given.baud == 0 ? kChainBaud : given.baud;
+  options.strict_baud = given.strict_baud;
   options.runs = Duration(static_cast<Duration::rep>(given.seconds * 1e6));
   options.about = (given.kind.empty() ? "" : given.kind + " with ") +
                   std::to_string(options.bus->servos()) + " servos";

@@ -13,11 +13,11 @@ namespace facewire::sim {
 
 // What `sim_bus` was asked to do.
 struct SimBusOptions {
-  std::string link;        // where the line's pseudo-terminal is linked to
-  std::string trace;       // a CSV file; empty: none
-  double strict_baud = 0;  // the rate that a host must have set; 0: any will do
-  Duration runs{};         // zero: until a signal
-  std::string about;       // what is simulated, in one line
+  std::string link;          // where the line's pseudo-terminal is linked to
+  std::string trace;         // a CSV file; empty: none
+  bool strict_baud = false;  // the line has the rate that a host has set; else its own, always
+  Duration runs{};           // zero: until a signal
+  std::string about;         // what is simulated, in one line
   std::unique_ptr<Bus> bus;
 };
 

@@ -96,9 +96,11 @@ int RunOnPty(const std::string& program, SimBusOptions& options) {
     std::array<std::byte, 4096> buffer;
     const Result<std::size_t> got = line.Read(buffer, milliseconds(1));
     const Time now = clock.Now();
-    const bool understood =
-        !got || options.strict_baud == 0 || RateOf(line.device_path()) == options.strict_baud;
-    if (got && !understood) continue;  // at another rate bytes are no bytes
+    if (got && options.strict_baud) {
+      const double rate = RateOf(line.device_path());
+      if (rate == 0) continue;  // no servo has that one
+      options.bus->SetBaud(rate);
+    }
     if (got) {
       options.bus->Receive(std::span(buffer).first(*got), now);
     } else if (got.error() != Errc::kTimeout) {

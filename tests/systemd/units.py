@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Checks the unit files with systemd's own tools: `units.py FOLDER FACEWIRED`.
 
-Every unit must verify, and facewired.service must be exposed by less than 2.0. The figure is printed. Exit code 77: this
-machine has no systemd-analyze.
+Every unit must verify, facewired.service must be exposed by less than 2.0 (the figure is printed), and its real-time policy
+must leave a board with one core alive. Exit code 77: this machine has no systemd-analyze.
 """
 
 import pathlib
@@ -13,11 +13,27 @@ import sys
 import tempfile
 
 LIMIT = 2.0
+INTERRUPT_THREADS = 50
 
 
 def run(*command):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     return done.returncode, done.stdout + done.stderr
+
+
+def real_time_mistakes(text):
+    """What of a unit with a real-time policy could take a board's only core for good."""
+    settings = dict(re.findall(r"^(\w+)=(.*)$", text, flags=re.MULTILINE))
+    if settings.get("CPUSchedulingPolicy") not in ("rr", "fifo"):
+        return []
+    mistakes = []
+    if not 1 <= int(settings.get("CPUSchedulingPriority", 0)) < INTERRUPT_THREADS:
+        mistakes.append(f"CPUSchedulingPriority must be below {INTERRUPT_THREADS}, the kernel's threads for interrupts")
+    if settings.get("Type") != "notify" or int(settings.get("WatchdogSec", 0)) == 0:
+        mistakes.append("without WatchdogSec nobody ends a real-time thread that spins")
+    if "LimitRTTIME" in settings:
+        mistakes.append("LimitRTTIME kills a service that is only slower than its camera")
+    return mistakes
 
 
 def main(folder, facewired):
@@ -30,6 +46,9 @@ def main(folder, facewired):
             # What this tree has stands for what is installed, which need not be there.
             text = re.sub(r"^(Exec\w+=[-+!]*)/usr/bin/facewired?\b", rf"\g<1>{facewired}",
                           unit.read_text(), flags=re.MULTILINE)
+            for mistake in real_time_mistakes(text):
+                print(f"{unit.name}: {mistake}")
+                failures += 1
             text = text.replace("/usr/lib/facewire/", f"{pathlib.Path(folder).resolve()}/")
             copy = pathlib.Path(scratch) / unit.name
             copy.write_text(text)

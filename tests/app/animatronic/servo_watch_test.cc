@@ -94,12 +94,27 @@ TEST_F(Watch, SaysWhatMendsASetting) {
       "left limp until then: facewire servo set jaw mode 3\n");
 }
 
+// The command is one that a shell can take.
+TEST_F(Watch, SaysWhatMendsAServoThatWouldNotSwitchItselfOff) {
+  jaw().state = bus::ServoState::kRefused;
+  ASSERT_TRUE(report.findings.try_push(
+      {.servo = 0,
+       .setting = bus::Setting::kShutdown,
+       .found = 0,
+       .wanted = bus::Bit(bus::HardwareFault::kHeat) | bus::Bit(bus::HardwareFault::kShock),
+       .refused = true}));
+  EXPECT_EQ(In(seconds(10)),
+            "facewired: servo jaw (bus chain, id 1): its shutdown conditions is none and should be "
+            "heat, electrical shock; it is left limp until then: facewire servo set jaw shutdown "
+            "heat,electricalshock\n");
+}
+
 TEST_F(Watch, NamesHardwareFaults) {
   jaw().reason = bus::Reason::kHardware;
   jaw().factor = 0;
   jaw().faults = bus::Bit(bus::HardwareFault::kOverload) | bus::Bit(bus::HardwareFault::kHeat);
   EXPECT_EQ(In(seconds(10)),
-            "facewired: servo jaw (bus chain, id 1): reports heat,overload and is let go\n");
+            "facewired: servo jaw (bus chain, id 1): reports heat, overload and is let go\n");
 }
 
 }  // namespace

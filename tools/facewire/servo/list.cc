@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/animatronic/servo_output.h"
+#include "app/animatronic/servo_words.h"
 #include "app/error.h"
 #include "hal/system_clock.h"
 #include "tools/facewire/json.h"
@@ -56,7 +57,7 @@ Row RowOf(const servo::Servo& servo, const bus::ServoFeedback& said) {
           Number("%.0f C", said.temperature_c),
           Number("%.0f %%", said.load, 100),
           Number("%.1f V", said.voltage_v),
-          FaultsText(said.faults)};
+          app::FaultWords(said.faults).data()};
 }
 
 void PrintTable(const std::vector<Row>& rows) {
@@ -96,7 +97,7 @@ std::string JsonOf(const servo::Servo& servo, const bus::ServoFeedback& said,
   AppendOptional(out, "load", said.load, 3);
   AppendOptional(out, "voltage_v", said.voltage_v, 1);
   out += ",\"errors\":";
-  json::AppendString(out, FaultsText(said.faults));
+  json::AppendString(out, app::FaultWords(said.faults).data());
   out += ",\"findings\":[";
   for (std::size_t i = 0; i < findings.size(); ++i) {
     if (i > 0) out += ',';

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "app/animatronic/servo_words.h"
 #include "app/error.h"
 #include "tools/facewire/servo/open.h"
 #include "tools/facewire/servo/words.h"
@@ -86,7 +87,7 @@ bool Mover::arrived() const {
 std::string Mover::trouble() const {
   const bus::ServoFeedback& told = said();
   if (told.state == bus::ServoState::kAbsent) return "does not answer";
-  if (told.faults != 0) return FaultsText(told.faults);
+  if (told.faults != 0) return app::FaultWords(told.faults).data();
   if (told.factor < 1 && told.reason != bus::Reason::kNone) {
     return std::string(Name(told.reason)) + (told.factor > 0 ? ": slowed down" : ": let go, rests");
   }

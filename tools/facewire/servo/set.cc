@@ -52,8 +52,7 @@ Target FindTarget(const SetOptions& options) {
   return target;
 }
 
-std::unique_ptr<Eeprom> OpenServo(const SetOptions& options, hal::Clock& clock) {
-  const Target target = FindTarget(options);
+std::unique_ptr<Eeprom> OpenServo(const Target& target, hal::Clock& clock) {
   auto servo = std::make_unique<Eeprom>(
       target.bus, target.id,
       [](const app::ServoBusConfig& bus) { return app::MakeHostLine(bus.port, bus.baud); }, clock);
@@ -67,7 +66,8 @@ bool Agreed(const SetOptions& options, const std::string& question) {
 
 void Set(const SetOptions& options) {
   hal::SystemClock clock;
-  const auto servo = OpenServo(options, clock);
+  const Target target = FindTarget(options);
+  const auto servo = OpenServo(target, clock);
   if (!Agreed(options, "Write " + options.setting + " = " + options.value + " into " +
                            options.servo + ", for good?")) {
     throw app::Failure("nothing was written");
@@ -75,14 +75,20 @@ void Set(const SetOptions& options) {
   servo->Set(options.setting, options.value);
   std::printf("%s: %s is %s now, as read back\n", options.servo.c_str(), options.setting.c_str(),
               options.value.c_str());
-  if (options.setting == "id" || options.setting == "baud") {
-    std::printf("write it into the configuration, too: the rig has the id, [[bus]] the rate\n");
+  if (options.setting == "id") {
+    std::printf("write it into the rig, too: id = %s\n", options.value.c_str());
+  }
+  if (options.setting == "baud") {
+    std::printf(
+        "write it into the configuration, too: baud = %s in the [[bus]] \"%s\", whose servos must "
+        "all have it\n",
+        options.value.c_str(), target.bus.name.c_str());
   }
 }
 
 void Reboot(const SetOptions& options) {
   hal::SystemClock clock;
-  const auto servo = OpenServo(options, clock);
+  const auto servo = OpenServo(FindTarget(options), clock);
   if (!Agreed(options, options.servo + " loses its torque while it starts; reboot it?")) {
     throw app::Failure("nothing was done");
   }

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <string>
 
-#include "tools/facewire/servo/words.h"
+#include "app/animatronic/servo_words.h"
 
 namespace facewire::tools {
 namespace {
@@ -41,7 +41,7 @@ std::optional<Setting> SettingOfWord(std::string_view word) {
   for (const Setting setting :
        {Setting::kOperatingMode, Setting::kMinPosition, Setting::kMaxPosition, Setting::kShutdown,
         Setting::kReturnDelay, Setting::kProfileUnit, Setting::kLock}) {
-    if (SettingWord(setting) == word) return setting;
+    if (app::SettingWord(setting) == word) return setting;
   }
   return std::nullopt;
 }

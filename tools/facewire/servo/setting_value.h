@@ -9,9 +9,9 @@
 
 namespace facewire::tools {
 
-// The setting that SettingWord writes so; nullopt: none.
+// The setting that app::SettingWord writes so; nullopt: none.
 std::optional<bus::Setting> SettingOfWord(std::string_view word);
-// A value as the findings write it: a number, "speed" or "time", "open" or "closed",
+// A value as app::SettingArgument writes it: a number, "speed" or "time", "open" or "closed",
 // "heat,overload". nullopt: not a value of that setting.
 std::optional<std::int32_t> SettingValue(bus::Setting setting, std::string_view text);
 // Digits alone.

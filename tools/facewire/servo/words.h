@@ -7,13 +7,10 @@
 #include "app/animatronic/bus_config.h"
 #include "core/bus/servo_bus.h"
 
-// What buses and servos say about themselves, in words for a person.
+// What is wrong with buses and servos and what mends it, as an operator reads it; the single words
+// are those of app/animatronic/servo_words.h.
 namespace facewire::tools {
 
-// "heat, overload"; "none".
-std::string FaultsText(bus::HardwareFaults faults);
-// As `facewire servo set` takes it; "" for what no command can set.
-std::string_view SettingWord(bus::Setting setting);
 // What a setting is, what it should be, and what mends it, for the servo of that name in that
 // configuration.
 std::string FindingText(const bus::Finding& finding, std::string_view servo,

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <initializer_list>
+#include <string_view>
+#include <utility>
+
+#include "app/animatronic/servo_words.h"
 #include "tools/facewire/servo/setting_value.h"
-#include "tools/facewire/servo/words.h"
 
 namespace facewire::tools {
 namespace {
@@ -53,17 +57,29 @@ TEST(Keys, WordsOfAScript) {
   for (const char* word : {"=", "=x", "=1500us", "lefty", "1500"}) EXPECT_FALSE(KeyOfWord(word));
 }
 
-TEST(SettingValues, AreReadAsTheFindingsWriteThem) {
+TEST(SettingValues, AreReadAsTheServiceAndTheFindingsWriteThem) {
   using bus::Setting;
-  for (const Setting setting : {Setting::kOperatingMode, Setting::kShutdown, Setting::kLock,
-                                Setting::kProfileUnit, Setting::kReturnDelay}) {
-    EXPECT_EQ(SettingOfWord(SettingWord(setting)), setting);
+  constexpr bus::HardwareFaults kAll = 0x3F;
+  for (const auto& [setting, value] :
+       std::initializer_list<std::pair<Setting, std::int32_t>>{{Setting::kOperatingMode, 3},
+                                                               {Setting::kMinPosition, 0},
+                                                               {Setting::kMaxPosition, 4095},
+                                                               {Setting::kShutdown, 0},
+                                                               {Setting::kShutdown, kAll},
+                                                               {Setting::kReturnDelay, 250},
+                                                               {Setting::kProfileUnit, 0},
+                                                               {Setting::kProfileUnit, 1},
+                                                               {Setting::kLock, 0},
+                                                               {Setting::kLock, 1}}) {
+    const app::Words argument = app::SettingArgument(setting, value);
+    EXPECT_EQ(SettingOfWord(app::SettingWord(setting)), setting);
+    EXPECT_EQ(SettingValue(setting, argument.data()), value) << argument.data();
+    EXPECT_EQ(std::string_view(argument.data()).find(' '), std::string_view::npos);
   }
-  EXPECT_EQ(SettingValue(Setting::kShutdown, "heat,electricalshock,overload"),
-            Bit(bus::HardwareFault::kHeat) | Bit(bus::HardwareFault::kShock) |
-                Bit(bus::HardwareFault::kOverload));
-  EXPECT_EQ(SettingValue(Setting::kShutdown, "none"), 0);
-  EXPECT_EQ(SettingValue(Setting::kLock, "closed"), 1);
+}
+
+TEST(SettingValues, AreNothingElse) {
+  using bus::Setting;
   EXPECT_FALSE(SettingValue(Setting::kShutdown, "heat,hunger"));
   EXPECT_FALSE(SettingValue(Setting::kLock, "1"));
   EXPECT_FALSE(SettingValue(Setting::kReturnDelay, "250us"));

@@ -182,6 +182,33 @@ TEST_F(ServoMotion, WritesSettingsByCommandAndReadsThemBack) {
   EXPECT_EQ(Servo({"set", "jaw", "moo", "1", "--config", config_, "--yes"}).code, 2);
 }
 
+TEST_F(ServoMotion, BringsAServoToAnotherRateWhereItAnswersFromThenOn) {
+  StartBus("sts", {"sts", "--ids", "1", "--strict-baud"});
+  config_ = Write("f.toml", FeetechConfig(scratch_.folder().string()));
+  Write("rig.toml", kJawRig);
+  Outcome outcome = Servo({"set", "jaw", "baud", "115200", "--config", config_, "--yes"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out,
+            "jaw: baud is 115200 now, as read back\n"
+            "write it into the configuration, too: baud = 115200 in the [[bus]] \"face\", whose "
+            "servos must all have it\n");
+  // The configuration has the old rate still.
+  outcome = Servo({"set", "jaw", "lock", "closed", "--config", config_, "--yes"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("at 1000000 baud does not answer; facewire servo find lists"));
+  outcome =
+      Servo({"set", "jaw", "baud", "1000000", "--baud", "115200", "--config", config_, "--yes"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(Servo({"set", "jaw", "lock", "closed", "--config", config_, "--yes"}).code, 0);
+}
+
+TEST_F(ServoMotion, ARateThatAServoDoesNotHaveIsRefusedWithThoseThatItHas) {
+  StartJaw();
+  const Outcome outcome = Servo({"set", "jaw", "baud", "9600", "--config", config_, "--yes"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("\"9600\" is no rate of this servo; expected one of 1000000"));
+}
+
 TEST_F(ServoMotion, TheWizardAddsBareServosToAConfigurationThatTheServiceAccepts) {
   StartBus("sts", {"sts", "--ids", "1,2"});
   const std::string config =
