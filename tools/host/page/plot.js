@@ -19,12 +19,13 @@ export class Plot {
     this.#lines = channels.flatMap((c, index) => (names.has(c.name) ? [{ ...c, index }] : []))
       .map((line, i) => ({ ...line, colour: COLOURS[i % COLOURS.length] }));
     this.legend.replaceChildren(...this.#lines.map((line) => {
-      const [item, mark, now, range] = ['li', 'i', 'output', 'small'].map((tag) => document.createElement(tag));
+      const [item, mark, name, now, range] = ['li', 'i', 'span', 'b', 'small'].map((tag) => document.createElement(tag));
       mark.style.background = line.colour;
+      name.textContent = name.title = line.name;
       range.textContent = `${line.min}…${line.max}${UNITS[line.kind]}`;
       range.title = 'what the plot is high';
       line.now = now;
-      item.append(mark, line.name, now, range);
+      item.append(mark, name, now, range);
       return item;
     }));
   }
@@ -58,8 +59,8 @@ export class Plot {
     g.lineWidth = 1.6;
     g.lineJoin = 'round';
     const last = this.#samples.at(-1)?.[1];
-    for (const { index, min, max, colour, kind, now: output } of this.#lines) {
-      if (last) output.value = numberOf(last[index], kind);
+    for (const { index, min, max, colour, kind, now: number } of this.#lines) {
+      if (last) number.textContent = numberOf(last[index], kind);
       g.strokeStyle = colour;
       g.beginPath();
       let before = -Infinity;
