@@ -121,11 +121,11 @@ function tell() {
   put('state-text', link.source === recording && recording.paused ? 'recording paused' : text);
   $('state').dataset.mood = live ? MOODS[device] ?? 'bad' : !lost && ['opening', 'waiting'].includes(link.state) ? 'wait' : 'bad';
   put('rate', live ? link.rate.toFixed(0) : '–');
-  put('latency', live && link.latency !== null ? link.latency.toFixed(0) : '–');
+  put('latency', live && link.latency !== null ? Math.max(0, link.latency).toFixed(0) : '–');
   $('latency-title').title = link.latencyIsWhole ? 'from the picture to this page' : 'from the picture to the line';
   put('lost', String(link.lost));
   put('damaged', String(link.damaged));
-  const problem = live ? '' : link.problem;
+  const problem = live ? '' : link.problem.replace(/\.$/, ''); // browsers' own are whole sentences
   $('notice').hidden = !problem;
   put('notice', problem && `${problem[0].toUpperCase()}${problem.slice(1)}.${lost ? ' Trying again.' : ''}`);
   const commands = link.source && link.source !== recording && ['waiting', 'live', 'silent'].includes(link.state);
