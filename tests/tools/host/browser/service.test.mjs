@@ -65,7 +65,8 @@ test('neutral brings the face to rest, and release the performer back', async ()
   await page.press('rest');
   await page.shows('answer', /^Neutral: done$/);
   await page.shows('state-text', /^resting$/);
-  for (const name of ['jawOpen', 'mouthSmileLeft', 'eyeBlinkLeft']) assert.ok(Math.abs(await page.value(name)) < 0.02, name);
+  const values = await page.values();
+  for (const name of ['jawOpen', 'mouthSmileLeft', 'eyeBlinkLeft']) assert.ok(Math.abs(values.get(name)) < 0.02, name);
   await page.press('release');
   await page.shows('state-text', /^tracking$/);
 });
