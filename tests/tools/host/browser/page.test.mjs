@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 
-import { Browser, FILE } from './harness.mjs';
+import { Browser, FILE, SMALL } from './harness.mjs';
 
 // The page as it comes, opened as a file: for everybody's eyes, hands and screens. One page for all, because each takes seconds to
 // begin; from where its recording is paused, nothing is drawn that nobody looks at.
@@ -76,6 +76,8 @@ test('each value is a meter that tells its unit', async () => {
 });
 
 test('arrow keys turn the view', async () => {
+  await page.page.setViewportSize(SMALL.viewport);
+  await page.settled();
   const before = await page.shot('before');
   await page.page.locator('#view').focus();
   for (let i = 0; i < 4; ++i) await page.page.keyboard.press('ArrowRight');
