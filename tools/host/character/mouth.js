@@ -98,7 +98,7 @@ export function teeth(down) {
 }
 
 export function tongue() {
-  return mapped(grid(24, 16, (u, v) => {
+  return mapped(grid(20, 14, (u, v) => {
     const a = 2 * Math.PI * u, b = Math.PI * v;
     return [1.55 * Math.sin(b) * Math.cos(a), 0.42 * Math.sin(b) * Math.sin(a), 3 * -Math.cos(b)];
   }, { closed: true }), ([x, y, z]) => [x, y - 5.7 + 0.12 * z - 0.16 * bump(x, 0, 0, 0, 0.35) * (y > 0 ? 1 : 0), z + 0.6]);

@@ -44,7 +44,7 @@ export const skull = () => grid(40, 22, (u, v) => {
 export const occiput = () => plate(36, 28, [TEMPLE_TO + 1.4, 360 - TEMPLE_TO - 1.4], [-4.4, SEAM_Y - 0.9 - GAP]);
 
 // What is seen through the seams, and behind eyes and mouth: there it leaves room for the tongue.
-export const core = () => grid(40, 28, (u, v) => {
+export const core = () => grid(36, 26, (u, v) => {
   const y = mix(-7, TOP - 0.5, v);
   const [x, , z] = around(360 * u, y);
   const shrink = mix(0.8, 0.93, smooth(3, 8, y));
@@ -93,7 +93,7 @@ export const jawRod = () => tube(Array.from({ length: 13 }, (_, i) => {
 // A pad on the cheekbone: rings around its middle, [radius, height over the face] each. Its edge ends deep inside, because a smile
 // lifts it.
 const PAD = [[1, -0.75], [1.01, -0.1], [1, -0.02], [0.98, 0.03], [0.94, 0.06], [0.86, 0.09], [0.7, 0.115], [0.45, 0.13], [0.2, 0.14], [0.001, 0.14]];
-export const cheekPad = () => grid(36, PAD.length - 1, (u, v) => {
+export const cheekPad = () => grid(32, PAD.length - 1, (u, v) => {
   const [r, h] = PAD[Math.round(v * (PAD.length - 1))], a = 2 * Math.PI * u;
   const x = 4.65 + 1.12 * r * Math.cos(a), y = -1.5 + 0.98 * r * Math.sin(a);
   return [x, y, front(x, y) + h];
