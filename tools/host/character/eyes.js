@@ -98,7 +98,8 @@ const onHole = (a) => {
 const INWARD = [0, 0.3, 0.6, 0.8, 1]; // the way to the lids
 export const membrane = () => grid(52, INWARD.length, (u, step) => {
   const a = 2 * Math.PI * u, tilt = 66 * DEGREES, k = Math.round(step * INWARD.length);
-  const onSphere = (radius) => [EYE[0] + radius * Math.sin(tilt) * Math.cos(a), EYE[1] + radius * Math.sin(tilt) * Math.sin(a), EYE[2] + radius * Math.cos(tilt)];
+  const direction = [Math.sin(tilt) * Math.cos(a), Math.sin(tilt) * Math.sin(a), Math.cos(tilt)];
+  const onSphere = (radius) => EYE.map((c, i) => c + radius * direction[i]);
   if (k === INWARD.length) return onSphere(EYE_RADIUS - 0.05);
   const v = INWARD[k], r = LID_RADIUS + 0.1, from = onHole(a), to = onSphere(r);
   const away = from.map((c, i) => mix(c, to[i], v) - (i === 2 ? 0.35 * Math.sin(Math.PI * v) : 0) - EYE[i]);

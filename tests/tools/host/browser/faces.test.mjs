@@ -98,7 +98,8 @@ test('nothing of the page lies on the head, on a phone and in a narrow window', 
 
 // In the browser: what of the header the character is under. Where it is not, the picture is transparent.
 function covered() {
-  const view = document.getElementById('view'), g = Object.assign(document.createElement('canvas'), { width: view.width, height: view.height }).getContext('2d', { willReadFrequently: true });
+  const view = document.getElementById('view');
+  const g = new OffscreenCanvas(view.width, view.height).getContext('2d', { willReadFrequently: true });
   g.drawImage(view, 0, 0);
   const { left, top, width } = view.getBoundingClientRect(), ratio = view.width / width;
   return [...document.querySelectorAll('header > *')].filter((e) => {

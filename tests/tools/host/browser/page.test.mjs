@@ -70,7 +70,8 @@ test('every control is reached by the keyboard, from the top down, has a name, a
 });
 
 test('each value is a meter that tells its unit', async () => {
-  const texts = await page.page.locator('[role=meter]').evaluateAll((all) => all.map((e) => `${e.getAttribute('aria-label')} ${e.getAttribute('aria-valuetext')}`));
+  const texts = await page.page.locator('[role=meter]')
+    .evaluateAll((all) => all.map((e) => `${e.getAttribute('aria-label')} ${e.getAttribute('aria-valuetext')}`));
   assert.ok(texts.length > 60);
   for (const text of texts) assert.match(text, /^\S+ (-?\d+\.\d°|-?\d+\.\d\d( cm)?)$/);
 });
