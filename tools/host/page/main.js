@@ -118,8 +118,9 @@ function tell() {
   // One attempt after the other is one state to who looks or listens.
   const lost = link.state === 'lost' || (link.state === 'opening' && link.problem !== '');
   const text = live ? (link.source === recording ? `recording: ${device}` : device) : LINE_TEXT[lost ? 'lost' : link.state];
-  put('state-text', link.source === recording && recording.paused ? 'recording paused' : text);
-  $('state').dataset.mood = live ? MOODS[device] ?? 'bad' : !lost && ['opening', 'waiting'].includes(link.state) ? 'wait' : 'bad';
+  const paused = link.source === recording && recording.paused;
+  put('state-text', paused ? 'recording paused' : text);
+  $('state').dataset.mood = paused ? 'wait' : live ? MOODS[device] ?? 'bad' : !lost && ['opening', 'waiting'].includes(link.state) ? 'wait' : 'bad';
   put('rate', live ? link.rate.toFixed(0) : '–');
   put('latency', live && link.latency !== null ? Math.max(0, link.latency).toFixed(0) : '–');
   $('latency-title').title = link.latencyIsWhole ? 'from the picture to this page' : 'from the picture to the line';
