@@ -6,6 +6,7 @@ import { Vector3 } from 'three';
 import { Character } from '../../../tools/host/character/character.js';
 import { Driver } from '../../../tools/host/character/driver.js';
 import { ARKIT } from '../../../tools/host/character/shapes.js';
+import { EYE } from '../../../tools/host/character/surface.js';
 
 const otto = new Character();
 const meshNamed = (name) => otto.meshes.find((m) => m.name === name);
@@ -142,6 +143,55 @@ test('lips meet at rest, open with the jaw, and close again over it', () => {
   otto.neutral();
   assert.ok(open > closed + 2, `${closed} ${open}`);
   assert.ok(again < 0.6 * open, `${open} ${again}`);
+});
+
+const eye = (name) => [name.endsWith('_L') ? EYE[0] : -EYE[0], EYE[1], EYE[2]];
+// Of each vertex of a part of an eye: how far from the eye's middle, and how far across and up, degrees.
+const aroundEye = (name) => vertices(meshNamed(name)).map((p) => p.map((c, k) => c - eye(name)[k]))
+  .map(([x, y, z]) => ({ radius: Math.hypot(x, y, z), across: (180 / Math.PI) * Math.asin(x / Math.hypot(x, y, z)), up: (180 / Math.PI) * Math.atan2(y, z) }));
+
+for (const side of ['L', 'R']) {
+  test(`the lids of eye ${side} close without a gap, and the lower one's lash goes under the upper one`, () => {
+    otto.neutral();
+    for (const shape of ['eyeBlinkLeft', 'eyeBlinkRight']) otto.setShape(shape, 1);
+    const [upper, lower, lash] = ['upper_lid', 'lower_lid', 'lower_lash'].map((part) => aroundEye(`${part}_${side}`));
+    otto.neutral();
+    for (let across = -60; across <= 60; across += 10) {
+      const near = (lid) => lid.filter((v) => Math.abs(v.across - across) < 4).map(({ up }) => up);
+      assert.ok(Math.min(...near(upper)) < Math.max(...near(lower)), `at ${across}`);
+    }
+    const outside = upper.filter(({ up, across }) => up > 20 && up < 60 && Math.abs(across) < 60).map(({ radius }) => radius);
+    assert.ok(Math.max(...lash.map(({ radius }) => radius)) <= Math.min(...outside), 'the lash sticks out');
+  });
+}
+
+test('a cheek pad is an even oval, also where a smile lifts it', () => {
+  otto.neutral();
+  for (const smile of [0, 1]) {
+    otto.setShape('mouthSmileLeft', smile);
+    const pad = vertices(meshNamed('cheek_pad_L')), [x, y] = [0, 1].map((k) => pad.reduce((sum, p) => sum + p[k], 0) / pad.length);
+    const outline = Array.from({ length: 24 }, (_, i) => {
+      const [c, s] = [Math.cos((2 * Math.PI * i) / 24) / 1.12, Math.sin((2 * Math.PI * i) / 24) / 0.98];
+      return Math.max(...pad.map((p) => c * (p[0] - x) + s * (p[1] - y)));
+    });
+    assert.ok(Math.max(...outline) - Math.min(...outline) < 0.025, `${smile}: ${Math.min(...outline)} to ${Math.max(...outline)}`);
+  }
+  otto.neutral();
+});
+
+test('in an open mouth nothing stands in the tongue, and the lower teeth come over the lip', () => {
+  otto.neutral();
+  otto.setBone('jaw', 'pitch', 22);
+  const tongue = vertices(meshNamed('tongue')).filter((p) => p[2] > -2.5);
+  const [low, high] = [Math.min, Math.max].map((most) => [0, 1, 2].map((k) => most(...tongue.map((p) => p[k]))));
+  const between = ['core', 'bellows'].flatMap((name) => vertices(meshNamed(name))).filter((p) => p.every((c, k) => c > low[k] && c < high[k]));
+  assert.deepEqual(between, []);
+  const middle = (name) => vertices(meshNamed(name)).filter((p) => Math.abs(p[0]) < 0.5);
+  const teeth = Math.max(...middle('lower_teeth').map((p) => p[1]));
+  // Lip and teeth as they are seen from before.
+  const mouth = middle('mouth').filter((p, i) => rest.get('mouth')[i][1] < -4.4 && p[2] > 2.5 && p[1] < -5);
+  assert.ok(teeth > Math.max(...mouth.filter((p) => p[2] > 3.2).map((p) => p[1])), `teeth up to ${teeth}`);
+  otto.neutral();
 });
 
 test('the jaw opens alike as a bone and as a shape', () => {

@@ -81,6 +81,15 @@ test('a line that speaks OSC is named, until it speaks the native protocol', asy
   assert.equal(link.problem, '');
 });
 
+test('another line begins without the problem of the one before', async () => {
+  const { link, line } = await context();
+  const bundle = [0xc0, ...new TextEncoder().encode('#bundle\0'), 0, 0, 0, 0, 0, 0, 0, 1, 0xc0];
+  line.to.bytes(Uint8Array.from([...bundle, ...bundle, ...bundle]));
+  assert.notEqual(link.problem, '');
+  link.open({ open() {}, close() {}, send() {} });
+  assert.equal(link.problem, '');
+});
+
 test('a rig that changes is taken up though its poses come between its parts', async () => {
   const { link, line, pass } = await context();
   line.to.bytes(franck);

@@ -139,9 +139,9 @@ export class Character {
     this.#addPair('eyeball', 'eye_L', eyes.eyeball, 'eye', shapes.eyeShapes);
     this.#addPair('cornea', 'eye_L', eyes.cornea, 'cornea', shapes.eyeShapes);
     this.#addPair('upper_lid', 'upper_lid_L', eyes.upperLid, 'lid', shapes.upperLidShapes);
-    this.#addPair('upper_lash', 'upper_lid_L', () => eyes.lash(eyes.UPPER_EDGE, 0.13), 'rubber', shapes.upperLidShapes);
+    this.#addPair('upper_lash', 'upper_lid_L', () => eyes.lash(eyes.UPPER_EDGE, 0.13, 0.05), 'rubber', shapes.upperLidShapes);
     this.#addPair('lower_lid', 'lower_lid_L', eyes.lowerLid, 'lid', shapes.lowerLidShapes);
-    this.#addPair('lower_lash', 'lower_lid_L', () => eyes.lash(eyes.LOWER_EDGE, 0.08), 'rubber', shapes.lowerLidShapes);
+    this.#addPair('lower_lash', 'lower_lid_L', () => eyes.lash(eyes.LOWER_EDGE, 0.08, -0.06), 'rubber', shapes.lowerLidShapes);
     this.#addMouth();
   }
 

@@ -8,6 +8,7 @@ import { EYE, EYE_RADIUS, front, mix, smooth } from './surface.js';
 const DEGREES = Math.PI / 180;
 const PUPIL = 12, IRIS = 31; // degrees from the axis
 const LID_RADIUS = EYE_RADIUS + 0.18;
+const COVER = 0.03; // how far over the lower lid the upper one turns, so that it hides the other's lash
 export const UPPER_EDGE = 27, LOWER_EDGE = -26; // of the lids at rest, degrees above the axis
 
 const noise = (n) => {
@@ -59,7 +60,7 @@ const edgeAt = (edge, across) => edge * (1 - 0.55 * smooth(25, WIDE, Math.abs(ac
 
 export const upperLid = () => grid(36, 10, (u, v) => {
   const across = mix(-WIDE, WIDE, u);
-  return onLid(LID_RADIUS + 0.03 * smooth(0.3, 0, v), across, mix(edgeAt(UPPER_EDGE, across), 128, v)); // thicker at its edge
+  return onLid(LID_RADIUS + COVER + 0.03 * smooth(0.3, 0, v), across, mix(edgeAt(UPPER_EDGE, across), 128, v)); // thicker at its edge
 }, { rim: 0.16 });
 
 export const lowerLid = () => grid(36, 8, (u, v) => {
@@ -67,13 +68,13 @@ export const lowerLid = () => grid(36, 8, (u, v) => {
   return onLid(LID_RADIUS - 0.02, across, mix(-120, edgeAt(LOWER_EDGE, across), v));
 }, { rim: 0.16 });
 
-// The rubber along a lid's edge, which draws the eye's line.
-export function lash(edge, radius) {
+// The rubber along a lid's edge, which draws the eye's line; its middle is `height` over the lid.
+export function lash(edge, radius, height) {
   const path = Array.from({ length: 33 }, (_, i) => {
-    const across = mix(-72, 72, i / 32);
-    return onLid(LID_RADIUS + 0.03, across, edgeAt(edge, across));
+    const across = mix(-68, 68, i / 32);
+    return onLid(LID_RADIUS + height, across, edgeAt(edge, across));
   });
-  return tube(path, (t) => radius * Math.sin(Math.PI * mix(0.06, 0.94, t)) ** 0.5, { sides: 6 });
+  return tube(path, (t) => radius * Math.sin(Math.PI * mix(0.01, 0.99, t)) ** 0.5, { sides: 6 });
 }
 
 // The hole in the shell, and the metal ring around it. The hole is an ellipse, a little higher outside.
@@ -92,11 +93,18 @@ const onHole = (a) => {
   return [x, y, front(x, y) + 0.06];
 };
 
-// The membrane from the ring to the lids, which turn behind it.
-export const membrane = () => grid(48, 4, (u, v) => {
-  const a = 2 * Math.PI * u, r = LID_RADIUS + 0.1, tilt = 66 * DEGREES;
-  const from = onHole(a), to = [EYE[0] + r * Math.sin(tilt) * Math.cos(a), EYE[1] + r * Math.sin(tilt) * Math.sin(a), EYE[2] + r * Math.cos(tilt)];
-  return from.map((c, k) => mix(c, to[k], v) - (k === 2 ? 0.35 * Math.sin(Math.PI * v) : 0));
+// The membrane from the ring to the lids, which turn in it: it sags, but not into them, and its end reaches through them to the
+// eyeball, so that nothing is seen past them from aside.
+const INWARD = [0, 0.3, 0.6, 0.8, 1]; // the way to the lids
+export const membrane = () => grid(52, INWARD.length, (u, step) => {
+  const a = 2 * Math.PI * u, tilt = 66 * DEGREES, k = Math.round(step * INWARD.length);
+  const direction = [Math.sin(tilt) * Math.cos(a), Math.sin(tilt) * Math.sin(a), Math.cos(tilt)];
+  const onSphere = (radius) => EYE.map((c, i) => c + radius * direction[i]);
+  if (k === INWARD.length) return onSphere(EYE_RADIUS - 0.05);
+  const v = INWARD[k], r = LID_RADIUS + 0.1, from = onHole(a), to = onSphere(r);
+  const away = from.map((c, i) => mix(c, to[i], v) - (i === 2 ? 0.35 * Math.sin(Math.PI * v) : 0) - EYE[i]);
+  const out = Math.max(1, r / Math.hypot(...away));
+  return away.map((c, i) => EYE[i] + out * c);
 }, { closed: true });
 
 export function bezel() {

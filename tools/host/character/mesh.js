@@ -13,25 +13,27 @@ export const unit = (a) => {
 
 // A grid of points at(u, v), u and v each a count of steps over 0..1 or a list of values. The face is where u x v points.
 //   closed   u comes back to its beginning
+//   ring     v does, too
 //   hole     point -> the point where it shall lie when it is inside a hole, else null: quads within go, edges move onto
 //            the hole's edge
 //   rim      so deep do the outer edges fold in: a shell with thickness
-export function grid(uSteps, vSteps, at, { closed = false, hole = () => null, rim = 0 } = {}) {
+export function grid(uSteps, vSteps, at, { closed = false, ring = false, hole = () => null, rim = 0 } = {}) {
   const us = typeof uSteps === 'number' ? steps(uSteps) : uSteps;
   const vs = typeof vSteps === 'number' ? steps(vSteps) : vSteps;
   const columns = closed ? us.length - 1 : us.length;
   const rows = [];
-  for (const v of vs) rows.push(us.slice(0, columns).map((u) => at(u, v)));
+  for (const v of ring ? vs.slice(0, -1) : vs) rows.push(us.slice(0, columns).map((u) => at(u, v)));
   if (rim > 0) foldEdges(rows, rim, closed);
   const width = rows[0].length;
   const points = rows.flat();
   const edges = points.map((p) => hole(p));
   const index = [];
   const wrap = closed ? width : width - 1;
-  for (let j = 0; j + 1 < rows.length; ++j) {
+  for (let j = 0; j < (ring ? rows.length : rows.length - 1); ++j) {
+    const above = (j + 1) % rows.length;
     for (let i = 0; i < wrap; ++i) {
       const k = (i + 1) % width;
-      const quad = [j * width + i, j * width + k, (j + 1) * width + k, (j + 1) * width + i];
+      const quad = [j * width + i, j * width + k, above * width + k, above * width + i];
       if (quad.every((q) => edges[q])) continue;
       index.push(quad[0], quad[1], quad[2], quad[0], quad[2], quad[3]);
     }
@@ -100,7 +102,16 @@ export function tube(path, radius, { sides = 10, closed = false, flat = 1 } = {}
     const r = typeof radius === 'number' ? radius : radius(v);
     const a = -2 * Math.PI * u;
     return path[i].map((c, k) => c + r * (Math.cos(a) * side[k] + flat * Math.sin(a) * out[k]));
-  }, { closed: true });
+  }, { closed: true, ring: closed });
+}
+
+// A line through the same points (two numbers each), `parts` times as fine and without kinks (Catmull-Rom).
+export function rounded(points, parts) {
+  const at = (i) => points[Math.min(points.length - 1, Math.max(0, i))];
+  return points.slice(0, -1).flatMap((_, i) => Array.from({ length: parts }, (__, n) => {
+    const t = n / parts, [a, b, c, d] = [at(i - 1), at(i), at(i + 1), at(i + 2)];
+    return [0, 1].map((k) => b[k] + 0.5 * t * (c[k] - a[k] + t * (2 * a[k] - 5 * b[k] + 4 * c[k] - d[k] + t * (3 * (b[k] - c[k]) + d[k] - a[k]))));
+  })).concat([points.at(-1)]);
 }
 
 // A solid of revolution about the vertical through (0, z): profile [[radius, y], ...] from the top down.

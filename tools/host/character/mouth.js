@@ -26,7 +26,7 @@ function between(angle, row) {
     ? 0.6 * s ** 0.9 + 0.12 * (bump(x1, 0, 0.62, 0, 0.5) + bump(x1, 0, -0.62, 0, 0.5)) * s - 0.06 * bump(x1, 0, 0, 0, 0.3)
     : -0.78 * (-s) ** 0.85;
   const rim = [x1, line(x1) + height];
-  const lipLine = [x2, line(x2) + 0.02 * s];
+  const lipLine = [x2, line(x2) - 0.01 * s]; // the lips press on each other: nothing is seen between them
   const [from, to, t] = row < 1 ? [edge, rim, row] : [rim, lipLine, row - 1];
   return [mix(from[0], to[0], t), mix(from[1], to[1], t)];
 }
@@ -43,7 +43,9 @@ export function mouthSkin(shell, skin, lip) {
     // Lips are fullest in the middle and end flat in the corners.
     const full = row > 0.85 ? mix(0.25, 1, smooth(1, 0.25, Math.abs(x) / 2.75)) : 1;
     const lower = Math.sin(angle) < 0 ? 0.92 : 1;
-    return [x, y, front(x, y) + (height > 0 ? height * full * lower : height)];
+    // Deep inside, the lower lip falls off to the teeth, so that they and the tongue are seen over it.
+    const fall = row === 2 ? 0.8 * Math.max(0, -height - 0.6) * smooth(0, -0.5, Math.sin(angle)) : 0;
+    return [x, y - fall, front(x, y) + (height > 0 ? height * full * lower : height)];
   };
   const ring = (of) => grid(angles, ROWS.map((_, k) => k), of, { closed: true });
   const geometry = ring(at);
@@ -64,25 +66,40 @@ export function mouthSkin(shell, skin, lip) {
   return { geometry, jaw };
 }
 
-// A row of teeth on an arch; `down` is the way their edges look.
+// From the middle to the side: how wide a tooth is beside the others, and how much longer, cm.
+const TEETH = [[1.25, 0.02], [0.95, -0.06], [1, 0.05], [0.9, -0.05], [0.9, -0.08], [1, -0.1]];
+const ACROSS = [0, 0.05, 0.13, 0.3, 0.5, 0.7, 0.87, 0.95]; // where a tooth's columns are; the next one begins at 1
+const ROUND = 0.17; // of a tooth's width is its corner
+
+// Columns of a row of teeth: [t from -1 to 1, how far from the gap beside it in widths of a tooth, how much longer]
+function toothColumns() {
+  const whole = TEETH.reduce((sum, [width]) => sum + width, 0), half = [];
+  let from = 0;
+  for (const [width, longer] of TEETH) {
+    for (const at of ACROSS) half.push([(from + at * width) / whole, Math.min(at, 1 - at), longer]);
+    from += width;
+  }
+  half.push([1, 0, TEETH.at(-1)[1]]);
+  return [...half.slice(1).reverse().map(([t, ...rest]) => [-t, ...rest]), ...half];
+}
+
+// A row of teeth on an arch; `down` is the way their edges look. The lower ones stand behind the upper ones.
 export function teeth(down) {
-  const count = 12, y0 = MOUTH_Y + (down > 0 ? 1.05 : -1.5);
-  const arch = (t) => [2.75 * Math.sin(t * 1.35), 0, 1.2 + 2.9 * Math.cos(t * 1.35)];
-  return grid(count * 8, 6, (u, v) => {
-    const t = 2 * u - 1;
-    const [x, , z] = arch(t);
-    const within = Math.abs(((u * count) % 1) - 0.5) * 2; // 0 in a tooth's middle, 1 between two
-    const gap = smooth(0.72, 1, within);
-    const tall = (down > 0 ? 1.62 : 0.95) * (1 - 0.3 * Math.abs(t)) - 0.14 * gap;
-    const along = down > 0 ? 1 - v : v; // v upwards
+  const upper = down > 0, columns = toothColumns();
+  const y0 = MOUTH_Y + (upper ? 1.05 : -1.5), height = upper ? 1.62 : 1.2, behind = upper ? 0 : 0.3;
+  return grid(columns.map((_, i) => i), 6, (u, v) => {
+    const [t, beside, longer] = columns[u];
+    const round = 1 - Math.sqrt(1 - Math.max(0, 1 - beside / ROUND) ** 2), gap = smooth(0.13, 0, beside);
+    const tall = height * (1 - 0.3 * Math.abs(t)) + (upper ? longer : 0.4 * longer) - 0.16 * round;
+    const along = upper ? 1 - v : v; // v upwards
     const thick = Math.sin(Math.PI * Math.min(1, 0.25 + 0.75 * along) * 0.98) ** 0.5;
-    return [x, y0 - down * tall * along, z - 0.14 * gap + 0.16 * thick];
+    return [2.75 * Math.sin(t * 1.35), y0 - down * tall * along, 1.2 - behind + 2.9 * Math.cos(t * 1.35) - 0.14 * gap + 0.16 * thick];
   });
 }
 
 export function tongue() {
-  return mapped(grid(28, 20, (u, v) => {
+  return mapped(grid(20, 14, (u, v) => {
     const a = 2 * Math.PI * u, b = Math.PI * v;
     return [1.55 * Math.sin(b) * Math.cos(a), 0.42 * Math.sin(b) * Math.sin(a), 3 * -Math.cos(b)];
-  }, { closed: true }), ([x, y, z]) => [x, y - 6.0 + 0.12 * z - 0.16 * bump(x, 0, 0, 0, 0.35) * (y > 0 ? 1 : 0), z + 0.6]);
+  }, { closed: true }), ([x, y, z]) => [x, y - 5.7 + 0.12 * z - 0.16 * bump(x, 0, 0, 0, 0.35) * (y > 0 ? 1 : 0), z + 0.6]);
 }

@@ -1,5 +1,5 @@
 import { inHole } from './eyes.js';
-import { cross, grid, merged, sub, tube, turnedSolid, unit } from './mesh.js';
+import { cross, grid, merged, rounded, sub, tube, turnedSolid, unit } from './mesh.js';
 import { MOUTH_Y, JAW_HINGE, TOP, around, front, mix, smooth } from './surface.js';
 
 // The hard parts: shells on the head's surface with seams between them, ears, linkages, neck and bust.
@@ -43,12 +43,13 @@ export const skull = () => grid(40, 22, (u, v) => {
 
 export const occiput = () => plate(36, 28, [TEMPLE_TO + 1.4, 360 - TEMPLE_TO - 1.4], [-4.4, SEAM_Y - 0.9 - GAP]);
 
-// What is seen through the seams, and behind teeth and eyes.
-export const core = () => grid(40, 20, (u, v) => {
+// What is seen through the seams, and behind eyes and mouth: there it leaves room for the tongue.
+export const core = () => grid(36, 26, (u, v) => {
   const y = mix(-7, TOP - 0.5, v);
   const [x, , z] = around(360 * u, y);
   const shrink = mix(0.8, 0.93, smooth(3, 8, y));
-  return [x * shrink, y, z > -2.8 ? mix(-2.8, z, y > 7 ? 0.92 : 0.62) : mix(-2.8, z, 0.92)];
+  const deep = y > 7 ? 0.92 : mix(0.62, -0.2, smooth(-0.5, -3.6, y) * smooth(4.2, 2.4, Math.abs(x)));
+  return [x * shrink, y, mix(-2.8, z, z > -2.8 ? deep : 0.92)];
 }, { closed: true });
 
 // A solid of revolution along an ear's axis: profile [[radius, height], ...] from its middle outwards.
@@ -89,14 +90,14 @@ export const jawRod = () => tube(Array.from({ length: 13 }, (_, i) => {
   return [mix(6.9, 5.2, t), mix(JAW_HINGE[1], -6.0, t), mix(JAW_HINGE[2], 0.2, t)];
 }), 0.32, { sides: 12 });
 
-// A pad on the cheekbone.
-export const cheekPad = () => grid(16, 16, (u, v) => {
-  // A square to a disc, so that its edge is one fold.
-  const a = 2 * u - 1, b = 2 * v - 1;
-  const dx = a * Math.sqrt(1 - (b * b) / 2), dy = b * Math.sqrt(1 - (a * a) / 2);
-  const x = 4.65 + 1.12 * dx, y = -1.5 + 0.98 * dy;
-  return [x, y, front(x, y) + 0.14 * (1 - 0.7 * (dx * dx + dy * dy))];
-}, { rim: 0.2 });
+// A pad on the cheekbone: rings around its middle, [radius, height over the face] each. Its edge ends deep inside, because a smile
+// lifts it.
+const PAD = [[1, -0.75], [1.01, -0.1], [1, -0.02], [0.98, 0.03], [0.94, 0.06], [0.86, 0.09], [0.7, 0.115], [0.45, 0.13], [0.2, 0.14], [0.001, 0.14]];
+export const cheekPad = () => grid(32, PAD.length - 1, (u, v) => {
+  const [r, h] = PAD[Math.round(v * (PAD.length - 1))], a = 2 * Math.PI * u;
+  const x = 4.65 + 1.12 * r * Math.cos(a), y = -1.5 + 0.98 * r * Math.sin(a);
+  return [x, y, front(x, y) + h];
+}, { closed: true });
 
 // The bar of a brow: thick at its inner end, thin at the outer.
 export function brow() {
@@ -108,11 +109,13 @@ export function brow() {
   return tube(path, (t) => mix(0.37, 0.17, t) * Math.min(1, 6 * t + 0.05, 6 * (1 - t) + 0.05) ** 0.5, { sides: 14, flat: 0.62 });
 }
 
-// Bellows, and the rods beside them.
-export const bellows = () => turnedSolid(Array.from({ length: 88 }, (_, i) => {
-  const y = mix(-5.5, -16.1, i / 87);
+// Bellows, and the rods beside them. They end below the tongue, which an open mouth shows.
+export const bellows = () => turnedSolid(Array.from({ length: 61 }, (_, i) => {
+  const y = mix(-7.6, -16.1, i / 60);
   return [3.7 + 0.26 * Math.cos((y * 2 * Math.PI) / 1.05), y];
 }), -3.2, 32);
 export const neckRod = () => tube([[4.7, -15.6, -2.4], [4.7, -13, -2.4], [4.65, -10, -2.6], [4.6, -6, -2.8]], 0.3, { sides: 14 });
 export const collar = () => turnedSolid([[4.0, -15.1], [5.0, -15.2], [5.2, -15.5], [5.2, -16.0], [5.0, -16.3], [4.0, -16.4]], -3.2, 56);
-export const bust = () => turnedSolid([[3.8, -16], [5.0, -16.2], [7.0, -16.6], [9.4, -17.6], [11.2, -19.2], [12.2, -21.2], [12.5, -24.5], [12.1, -25], [0.1, -25]], -3.2, 64);
+
+const BUST = [[3.8, -16], [5.0, -16.2], [7.0, -16.6], [9.4, -17.6], [11.2, -19.2], [12.2, -21.2], [12.5, -24.5], [12.1, -25]];
+export const bust = () => turnedSolid([...rounded(BUST, 3), [0.1, -25]], -3.2, 64);

@@ -3,11 +3,17 @@ import {
   PMREMGenerator, PerspectiveCamera, Scene, SphereGeometry, WebGLRenderer,
 } from 'three';
 
+import { TOP } from './surface.js';
+
+// What the camera sees at rest, in cm around its middle: so much of height at least, and of width; and where the head ends.
+const MIDDLE_Y = -2.6, DISTANCE = 78, TALL = 33.2, WIDE = 27.2, CROWN = TOP - MIDDLE_Y;
+const fieldOf = (height) => (360 / Math.PI) * Math.atan(height / 2 / DISTANCE);
+
 // Three-point light: a warm key from the character's right and above, a cool fill from its left, a rim from behind; and
 // a studio of soft boxes that metal and eyes mirror.
 export class Studio {
   scene = new Scene();
-  camera = new PerspectiveCamera(24, 1, 5, 400);
+  camera = new PerspectiveCamera(fieldOf(TALL), 1, 5, 400);
 
   constructor(canvas) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
@@ -22,19 +28,22 @@ export class Studio {
   }
 
   // The camera's place: degrees around and above the face; `distance` in cm.
-  look(azimuth, elevation, distance = 78) {
+  look(azimuth, elevation, distance = DISTANCE) {
     const a = (azimuth * Math.PI) / 180, e = (elevation * Math.PI) / 180;
-    this.camera.position.set(distance * Math.sin(a) * Math.cos(e), -2.6 + distance * Math.sin(e), distance * Math.cos(a) * Math.cos(e));
-    this.camera.lookAt(0, -2.6, 0);
+    this.camera.position.set(distance * Math.sin(a) * Math.cos(e), MIDDLE_Y + distance * Math.sin(e), distance * Math.cos(a) * Math.cos(e));
+    this.camera.lookAt(0, MIDDLE_Y, 0);
   }
 
-  resize(width, height, ratio) {
+  // A head at rest keeps below the uppermost `header` pixels, which the picture fills, too.
+  resize(width, height, ratio, header = 0) {
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
+    const tall = (header - (0.5 - CROWN / TALL) * height) / (0.5 + CROWN / TALL); // what has to be added above, where height is scarce
+    const wide = 2 * (header + (CROWN / WIDE) * width) - height; // ... where width is
+    const above = Math.max(0, Math.min(tall, wide)), below = height - above;
     // A narrow window sees the whole head, too.
-    this.camera.fov = Math.max(24, (2 * Math.atan((Math.tan((12 * Math.PI) / 180) * 0.82) / Math.min(1, width / height)) * 180) / Math.PI);
-    this.camera.updateProjectionMatrix();
+    this.camera.fov = fieldOf(Math.max(TALL, (WIDE * below) / width));
+    this.camera.setViewOffset(width, below, 0, -above, width, height);
   }
 
   render() { this.renderer.render(this.scene, this.camera); }

@@ -35,6 +35,7 @@ export class Cast {
     const shapes = new Set(character.shapeNames);
     const bones = character.aliases ? [...character.aliases].map(([name, part]) => (name === part ? part : `${part}: ${name}`)) : [...character.bones.keys()];
     put('character-name', character.name);
+    $('character-name').title = character.name;
     put('character-shapes', `${ARKIT.filter((name) => shapes.has(name)).length} of ${ARKIT.length}`);
     put('character-bones', String(bones.length));
     $('character-otto').hidden = !character.dispose;

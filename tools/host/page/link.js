@@ -57,6 +57,7 @@ export class Link {
     this.close();
     this.#source = source;
     this.#openings = this.#retries = 0;
+    this.problem = '';
     this.#earlier = { damaged: 0, lost: 0 };
     this.#forget();
     this.#start();

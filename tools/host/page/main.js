@@ -115,17 +115,20 @@ function put(id, text) {
 function tell() {
   const live = link.state === 'live';
   const device = live ? STATES[link.pose.state] : null;
-  const text = live ? (link.source === recording ? `recording: ${device}` : device) : LINE_TEXT[link.state];
-  put('state-text', link.source === recording && recording.paused ? 'recording paused' : text);
-  $('state').dataset.mood = live ? MOODS[device] ?? 'bad' : { opening: 'wait', waiting: 'wait' }[link.state] ?? 'bad';
+  // One attempt after the other is one state to who looks or listens.
+  const lost = link.state === 'lost' || (link.state === 'opening' && link.problem !== '');
+  const text = live ? (link.source === recording ? `recording: ${device}` : device) : LINE_TEXT[lost ? 'lost' : link.state];
+  const paused = link.source === recording && recording.paused;
+  put('state-text', paused ? 'recording paused' : text);
+  $('state').dataset.mood = paused ? 'wait' : live ? MOODS[device] ?? 'bad' : !lost && ['opening', 'waiting'].includes(link.state) ? 'wait' : 'bad';
   put('rate', live ? link.rate.toFixed(0) : '–');
-  put('latency', live && link.latency !== null ? link.latency.toFixed(0) : '–');
+  put('latency', live && link.latency !== null ? Math.max(0, link.latency).toFixed(0) : '–');
   $('latency-title').title = link.latencyIsWhole ? 'from the picture to this page' : 'from the picture to the line';
   put('lost', String(link.lost));
   put('damaged', String(link.damaged));
-  const problem = ['lost', 'off'].includes(link.state) ? link.problem : '';
+  const problem = live ? '' : link.problem.replace(/\.$/, ''); // browsers' own are whole sentences
   $('notice').hidden = !problem;
-  put('notice', problem && `${problem[0].toUpperCase()}${problem.slice(1)}.${link.state === 'lost' ? ' Trying again.' : ''}`);
+  put('notice', problem && `${problem[0].toUpperCase()}${problem.slice(1)}.${lost ? ' Trying again.' : ''}`);
   const commands = link.source && link.source !== recording && ['waiting', 'live', 'silent'].includes(link.state);
   for (const button of document.querySelectorAll('[data-command]')) button.disabled = !commands;
   for (const [id, Kind] of [['play', Recording], ['serial', Serial], ['socket', Socket]]) {
@@ -158,7 +161,8 @@ function frame(now) {
   requestAnimationFrame(frame);
 }
 function resize() {
-  studio.resize(view.clientWidth, view.clientHeight, (pace?.scale ?? 1) * Math.min(2, window.devicePixelRatio || 1));
+  const header = $('state').getBoundingClientRect().bottom - view.getBoundingClientRect().top;
+  studio.resize(view.clientWidth, view.clientHeight, (pace?.scale ?? 1) * Math.min(2, window.devicePixelRatio || 1), header);
   stale = true;
 }
 new ResizeObserver(resize).observe(view);

@@ -1,5 +1,5 @@
 const SECONDS = 10;
-const COLOURS = ['#35c7c2', '#d9a066', '#e2747e', '#8fa8ff', '#9acb6b', '#c792e0', '#e6c84f', '#6fb7e9'];
+const COLOURS = 8; // --line-0 and on, in page.css
 
 // What follows a number of a channel, by its kind.
 export const UNITS = { parameter: '', position_x: ' cm', position_y: ' cm', position_z: ' cm', pitch: '°', yaw: '°', roll: '°' };
@@ -17,14 +17,15 @@ export class Plot {
 
   choose(channels, names) {
     this.#lines = channels.flatMap((c, index) => (names.has(c.name) ? [{ ...c, index }] : []))
-      .map((line, i) => ({ ...line, colour: COLOURS[i % COLOURS.length] }));
+      .map((line, i) => ({ ...line, colour: `--line-${i % COLOURS}` }));
     this.legend.replaceChildren(...this.#lines.map((line) => {
-      const [item, mark, now, range] = ['li', 'i', 'output', 'small'].map((tag) => document.createElement(tag));
-      mark.style.background = line.colour;
+      const [item, mark, name, now, range] = ['li', 'i', 'span', 'b', 'small'].map((tag) => document.createElement(tag));
+      mark.style.background = `var(${line.colour})`;
+      name.textContent = name.title = line.name;
       range.textContent = `${line.min}…${line.max}${UNITS[line.kind]}`;
       range.title = 'what the plot is high';
       line.now = now;
-      item.append(mark, line.name, now, range);
+      item.append(mark, name, now, range);
       return item;
     }));
   }
@@ -58,9 +59,9 @@ export class Plot {
     g.lineWidth = 1.6;
     g.lineJoin = 'round';
     const last = this.#samples.at(-1)?.[1];
-    for (const { index, min, max, colour, kind, now: output } of this.#lines) {
-      if (last) output.value = numberOf(last[index], kind);
-      g.strokeStyle = colour;
+    for (const { index, min, max, colour, kind, now: number } of this.#lines) {
+      if (last) number.textContent = numberOf(last[index], kind);
+      g.strokeStyle = style.getPropertyValue(colour);
       g.beginPath();
       let before = -Infinity;
       for (const [at, values] of this.#samples) {

@@ -48,7 +48,7 @@ export class Values {
     const fill = make('i');
     const bar = make('div', { className: 'bar' }, fill);
     for (const [key, value] of [['role', 'meter'], ['aria-label', name], ['aria-valuemin', min], ['aria-valuemax', max]]) bar.setAttribute(key, value);
-    const number = make('output', {});
+    const number = make('b'); // no <output>: screen readers would read out each of its changes
     const gain = make('input', { type: 'range', min: 0, max: 3, step: 0.1, value: this.gains.get(name) ?? 1 });
     gain.setAttribute('aria-label', `Gain of ${name}`);
     gain.oninput = () => {
@@ -63,7 +63,7 @@ export class Values {
     const span = max - min || 1;
     this.#rows[i] = { fill, bar, number, from: (neutral - min) / span, span, kind: channel.kind };
     const label = make('span', { textContent: name.replaceAll('_', ' ').replace('.', ' · '), title: name });
-    return make('div', { className: 'value' }, tick, label, bar, number, gain);
+    return make('div', { className: 'value' }, make('label', {}, tick), label, bar, number, gain);
   }
 
   // What the character gets: each value's distance from neutral times its gain, within its range.
@@ -82,8 +82,9 @@ export class Values {
       const at = (value - this.#channels[i].min) / row.span;
       const low = Math.min(at, row.from);
       row.fill.style.transform = `translateX(${100 * low}%) scaleX(${Math.abs(at - row.from)})`;
-      row.number.value = numberOf(value, row.kind);
+      row.number.textContent = numberOf(value, row.kind);
       row.bar.setAttribute('aria-valuenow', value.toFixed(2));
+      row.bar.setAttribute('aria-valuetext', row.number.textContent);
     });
   }
 }

@@ -23,6 +23,7 @@ class Board {
   refused = null; // a DOMException that opening ends with
   chosen = true; // whether the user picks it when the browser asks
   openings = 0;
+  attempts = 0; // to open it
   #rig = { name: 'stand_in', bones: [], channels: [] };
   #steps = [];
   #state = 'tracking';
@@ -62,6 +63,7 @@ class Board {
   }
 
   async open({ baudRate }) {
+    ++this.attempts;
     if (!(baudRate > 0)) throw new TypeError('baudRate is required');
     if (this.#line) throw new DOMException('The port is already open.', 'InvalidStateError');
     if (!this.plugged) throw new DOMException('Failed to open serial port.', 'NetworkError');

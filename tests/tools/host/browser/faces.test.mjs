@@ -86,6 +86,29 @@ test('a head that turns moves the whole face, and not the bust', async () => {
   assert.ok(turned.BUST < 0.02, String(turned.BUST));
 });
 
+test('nothing of the page lies on the head, on a phone and in a narrow window', async () => {
+  const { width, height } = page.page.viewportSize();
+  await page.page.evaluate(() => board.set({}));
+  for (const size of [{ width: 360, height: 740 }, { width: 720, height: 450 }, { width, height }]) {
+    await page.page.setViewportSize(size);
+    await page.settled();
+    assert.deepEqual(await page.page.evaluate(covered), [], `${size.width} x ${size.height}`);
+  }
+});
+
+// In the browser: what of the header the character is under. Where it is not, the picture is transparent.
+function covered() {
+  const view = document.getElementById('view');
+  const g = new OffscreenCanvas(view.width, view.height).getContext('2d', { willReadFrequently: true });
+  g.drawImage(view, 0, 0);
+  const { left, top, width } = view.getBoundingClientRect(), ratio = view.width / width;
+  return [...document.querySelectorAll('header > *')].filter((e) => {
+    const box = e.getBoundingClientRect();
+    const { data } = g.getImageData(...[box.left - left, box.top - top, box.width, box.height].map((c) => Math.round(ratio * c)));
+    return data.some((alpha, i) => i % 4 === 3 && alpha > 0);
+  }).map((e) => e.id || e.tagName);
+}
+
 test('a performer who is gone leaves a face at rest and a page that says so', async () => {
   await page.page.evaluate((v) => board.set(v, 'tracking'), both('eyeBlink'));
   await page.page.evaluate(() => board.set({}, 'resting'));

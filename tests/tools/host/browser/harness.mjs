@@ -19,7 +19,8 @@ const { chromium } = createRequire(`${env('FACEWIRE_ASSETS')}/playwright-core/`)
 export const PAGE = env('FACEWIRE_PAGE');
 export const FILE = pathToFileURL(join(PAGE, 'index.html')).href;
 export const ALL_PIXELS = '#pixels=all'; // else a slow computer gets a coarser picture, and pictures cannot be compared
-const VIEWPORT = { width: 848, height: 480 }; // the character gets 480 x 480
+const VIEWPORT = { width: 704, height: 320 }; // the character gets 320 x 320
+export const SMALL = { viewport: { width: 704, height: 160 } }; // where nobody looks at it, and a picture costs the more the larger it is
 
 // A browser that is closed, with all that it wrote, when the test file ends: `after(() => browser.close())`.
 export class Browser {
@@ -72,9 +73,10 @@ export class Page {
       .catch(async (error) => { throw new Error(`#${id} shows "${await this.text(id)}" and not ${pattern}: ${error.message}`); });
   }
   press(id) { return this.page.locator(`#${id}`).click(); }
-  // What the list of values shows for a channel, in its unit.
-  value(name) {
-    return this.page.locator(`[role=meter][aria-label="${name}"]`).evaluate((bar) => Number(bar.getAttribute('aria-valuenow')));
+  // What the list of values shows, in the channels' units, by their names.
+  async values() {
+    const meters = this.page.locator('[role=meter]');
+    return new Map(await meters.evaluateAll((all) => all.map((bar) => [bar.getAttribute('aria-label'), Number(bar.getAttribute('aria-valuenow'))])));
   }
   // Files [name, bytes] over the page, then let go, as a hand does it.
   drop(...files) {

@@ -4,14 +4,14 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { Browser } from './harness.mjs';
+import { Browser, FILE, SMALL } from './harness.mjs';
 
 // A recording of the page, as the files that people take away.
 
 let browser, page;
 before(async () => {
   browser = await Browser.start();
-  page = await browser.open();
+  page = await browser.open(FILE, SMALL);
   await page.shows('state-text', /^recording: tracking$/);
 });
 after(() => browser?.close());

@@ -3,7 +3,7 @@ import { after, before, test } from 'node:test';
 
 import { Decoder } from '../../../../tools/host/decoder/decoder.js';
 import { RigCollector, valuesOf } from '../../../../tools/host/decoder/rig.js';
-import { Browser, recording } from './harness.mjs';
+import { Browser, FILE, SMALL, recording } from './harness.mjs';
 
 // Web Serial, with a stand-in for the browser's own: captured bytes of a real service, a cable that is pulled, a user who
 // changes their mind.
@@ -16,7 +16,7 @@ after(() => browser?.close());
 
 async function open() {
   await page?.close();
-  page = await browser.open(undefined, { board: true });
+  page = await browser.open(FILE, { board: true, ...SMALL });
 }
 const plays = (bytes) => page.page.evaluate((b) => board.play(b), [...bytes]);
 // The captured stream up to its n-th pose, by its parts.
@@ -38,7 +38,8 @@ test('captured bytes make the page show the rig, its values and how the line far
   await page.shows('state-text', /^(tracking|nothing comes)$/);
   const { channels } = rig.rig;
   assert.equal(await page.page.locator('[role=meter]').count(), channels.length);
-  for (const [i, { name }] of channels.entries()) assert.ok(Math.abs((await page.value(name)) - values[i]) < 0.006, name);
+  const shown = await page.values();
+  for (const [i, { name }] of channels.entries()) assert.ok(Math.abs(shown.get(name) - values[i]) < 0.006, name);
   assert.equal(await page.figure('lost'), 0);
   assert.equal(await page.figure('damaged'), 0);
 });
@@ -89,6 +90,16 @@ test('a cable that is pulled is said, and taken up again when it is back', async
   assert.ok(await page.page.locator('#notice').isHidden());
 });
 
+test('a line that speaks OSC is said, with what to do about it', async () => {
+  await open();
+  await page.press('serial');
+  await page.shows('state-text', /^waiting for the device$/);
+  await plays(Array(3).fill([0xc0, ...Buffer.from('#bundle\0'), 0, 0, 0, 0, 0, 0, 0, 1, 0xc0]).flat());
+  await page.shows('notice', /^This line speaks OSC; .* protocol = "native" .*\.toml\.$/);
+  await plays(upTo(200));
+  await page.shows('notice', /^$/);
+});
+
 test('a user who picks no port keeps what plays', async () => {
   await open();
   await page.page.evaluate(() => { board.chosen = false; });
@@ -101,7 +112,18 @@ test('a port that another program has is said in words, and tried again', async 
   await open();
   await page.page.evaluate(() => { board.refused = new DOMException('Failed to open serial port.', 'NetworkError'); });
   await page.press('serial');
-  await page.shows('notice', /^Failed to open serial port/);
+  await page.shows('notice', /^Failed to open serial port\. Trying again\.$/);
+  // What is said stands still while one attempt follows the other.
+  const said = await page.page.evaluate(() => new Promise((resolve) => {
+    const texts = new Set(), from = board.attempts, notice = document.getElementById('notice');
+    const look = () => {
+      texts.add(`${document.getElementById('state-text').textContent}, ${notice.hidden ? 'no notice' : 'notice'}`);
+      if (board.attempts < from + 2) setTimeout(look, 5);
+      else resolve([...texts]);
+    };
+    look();
+  }));
+  assert.deepEqual(said, ['line lost, trying again, notice']);
   await page.page.evaluate(() => {
     board.setRig({ name: 'small', bones: [], channels: [{ name: 'jawOpen', kind: 'parameter', neutral: 0, min: 0, max: 1 }] });
     board.refused = null;

@@ -35,9 +35,12 @@ test('the page that serve brings follows its line at once', async () => {
 });
 
 test('frame rate and latency are those of the service', async () => {
-  await page.shows('rate', /^2\d$/); // the clip has 24 pictures a second
-  await page.shows('latency', /^\d+$/);
-  const [rate, latency] = [await page.figure('rate'), await page.figure('latency')];
+  // Both at once: a busy machine has moments without either. The clip has 24 pictures a second.
+  const figures = await page.page.waitForFunction(() => {
+    const [frames, ms] = ['rate', 'latency'].map((id) => Number.parseFloat(document.getElementById(id).textContent));
+    return frames >= 20 && ms >= 0 && [frames, ms];
+  });
+  const [rate, latency] = await figures.jsonValue();
   assert.ok(Math.abs(rate - 24) < 3, `${rate} a second`);
   assert.ok(latency > 0 && latency < 2000, `${latency} ms`);
   console.log(`# ${rate} frames a second, ${latency} ms from the picture to the page`);
@@ -65,7 +68,8 @@ test('neutral brings the face to rest, and release the performer back', async ()
   await page.press('rest');
   await page.shows('answer', /^Neutral: done$/);
   await page.shows('state-text', /^resting$/);
-  for (const name of ['jawOpen', 'mouthSmileLeft', 'eyeBlinkLeft']) assert.ok(Math.abs(await page.value(name)) < 0.02, name);
+  const values = await page.values();
+  for (const name of ['jawOpen', 'mouthSmileLeft', 'eyeBlinkLeft']) assert.ok(Math.abs(values.get(name)) < 0.02, name);
   await page.press('release');
   await page.shows('state-text', /^tracking$/);
 });
