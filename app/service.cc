@@ -34,9 +34,9 @@ Service::Service(const ServiceConfig& config, const ServiceParts& parts,
               .calibrate = parts.calibrate,
               .status_led = parts.status_led,
               .servo_power = parts.servo_power},
-             parts.log_panel) {
+             parts.log_panel),
+      camera_(parts.camera, parts.clock, stats_) {
   started_ = parts_.clock.Now();
-  last_picture_ = last_fresh_ = started_;
   deadline_ = started_ + period();
   now_ = config_.media_time ? Time{} : started_;
   next_status_ = status_at_ = next_description_ = now_;
@@ -88,38 +88,25 @@ bool Service::Tick() noexcept {
 
 // Waits for a picture until the tick is due, and follows it.
 state::Sight Service::Look() noexcept {
-  pictured_ = false;
-  if (!running_ && !ended_) RestartCamera();
-  if (!running_) {
-    if (!config_.media_time) parts_.clock.SleepUntil(deadline_);
-    MissPicture(Errc::kDisconnected);
-    return state::Sight::kSilent;
+  const bool ran = camera_.running();
+  const Result<Frame> frame = camera_.Wait(deadline_, silence());
+  pictured_ = frame.has_value();
+  if (pictured_) {
+    const state::Sight sight = See(*frame);
+    camera_.Release(*frame);
+    return sight;
   }
-  const auto left = std::max(deadline_ - parts_.clock.Now(), Duration{});
-  const Result<Frame> frame = parts_.camera.Acquire(std::chrono::ceil<milliseconds>(left));
-  CountDamaged();
-  if (!frame) {
-    MissPicture(frame.error());
-    return state::Sight::kSilent;
-  }
-  const state::Sight sight = See(*frame);
-  parts_.camera.Release(*frame);
-  return sight;
+  if (ran && !camera_.running()) parts_.follower.Forget();
+  if (!ran && !camera_.running() && !config_.media_time) parts_.clock.SleepUntil(deadline_);
+  MissPicture();
+  return state::Sight::kSilent;
 }
 
 state::Sight Service::See(const Frame& frame) noexcept {
-  acquired_ = last_picture_ = parts_.clock.Now();
+  acquired_ = camera_.last_picture();
   deadline_ = acquired_ + period();
   now_ = config_.media_time ? frame.captured
                             : std::clamp(frame.captured, acquired_ - kOldestPicture, acquired_);
-  pictured_ = true;
-  if (frame.captured != captured_) last_fresh_ = acquired_;
-  captured_ = frame.captured;
-  restart_.Succeeded();
-  if (last_seq_ && frame.seq > *last_seq_ + 1) stats_.frames_dropped += frame.seq - *last_seq_ - 1;
-  last_seq_ = frame.seq;
-  ++stats_.frames;
-
   const Result<Followed> followed = parts_.follower.Follow(frame);
   if (followed) {
     ++stats_.faces;
@@ -145,13 +132,7 @@ void Service::OfferLandmarks(const Frame& frame, const Result<Followed>& followe
   parts_.line.OfferLandmarks(seen);
 }
 
-void Service::CountDamaged() noexcept {
-  const std::uint64_t now = parts_.camera.counts().damaged;
-  stats_.frames_damaged += now - damaged_;
-  damaged_ = now;
-}
-
-void Service::MissPicture(Errc why) noexcept {
+void Service::MissPicture() noexcept {
   ++stats_.silent_ticks;
   const Time clock = parts_.clock.Now();
   now_ = config_.media_time ? now_ + period() : std::max(now_, clock);
@@ -159,37 +140,12 @@ void Service::MissPicture(Errc why) noexcept {
   if (calibration_.Wait(now_, outcome_)) EndCalibration();
   deadline_ += period();
   if (deadline_ < clock) deadline_ = clock + period();
-  if (why == Errc::kEnd) {
-    ended_ = true;
-    running_ = false;
-    quit_ = true;
-    return;
-  }
-  if (!running_) return;
-  const bool silent = clock - last_picture_ > config_.states.camera_timeout && restart_.Due(clock);
-  if (why == Errc::kTimeout && !silent) return;
-  if (why != Errc::kTimeout) ++stats_.camera_errors;
-  parts_.camera.Stop();
-  parts_.follower.Forget();
-  running_ = false;
-}
-
-void Service::RestartCamera() noexcept {
-  const Time clock = parts_.clock.Now();
-  if (!restart_.Due(clock)) return;
-  ++stats_.camera_restarts;
-  damaged_ = 0;
-  running_ = camera_opens_ = parts_.camera.Start().has_value();
-  last_seq_.reset();
-  // Only a picture ends the back-off: a camera may start and stay silent again and again.
-  restart_.Failed(parts_.clock.Now());
+  if (camera_.ended()) quit_ = true;
 }
 
 const char* Service::Ailment() const noexcept {
   const Time clock = parts_.clock.Now();
-  if (camera_opens_ && !ended_ && clock - last_fresh_ > 3 * config_.states.camera_timeout) {
-    return "the camera opens but sends no fresh pictures";
-  }
+  if (camera_.Stuck(silence())) return "the camera opens but sends no fresh pictures";
   if (config_.line_stuck_after > Duration::zero() &&
       parts_.line.TakesNothingFor() > config_.line_stuck_after) {
     return "the line is open but takes no bytes";
@@ -200,21 +156,16 @@ const char* Service::Ailment() const noexcept {
   return "";
 }
 
-Service::Camera Service::camera() const noexcept {
-  if (!camera_opens_) return Camera::kGone;
-  const Duration silence = parts_.clock.Now() - last_fresh_;
-  return running_ && silence <= config_.states.camera_timeout ? Camera::kUp : Camera::kSilent;
-}
-
 const char* Service::reason() const noexcept {
   switch (motion_.state()) {
     case ServiceState::kStopped:
       return stopped_by_;
     case ServiceState::kFault:
       if (!parts_.line.connected()) return "the line to the host is gone";
-      return camera() == Camera::kGone ? "the camera is gone" : "the camera is silent";
+      return camera() == WatchedCamera::Health::kGone ? "the camera is gone"
+                                                      : "the camera is silent";
     default:
-      if (quit_) return ended_ ? "the recording is over" : "asked to end";
+      if (quit_) return camera_.ended() ? "the recording is over" : "asked to end";
       return rest_ ? "asked to rest" : "";
   }
 }

@@ -10,7 +10,6 @@
 
 #include "app/animatronic/output_thread.h"
 #include "app/animatronic/servo_power.h"
-#include "app/backoff.h"
 #include "app/calibration.h"
 #include "app/character.h"
 #include "app/control.h"
@@ -20,6 +19,7 @@
 #include "app/request.h"
 #include "app/service_stats.h"
 #include "app/stop_latch.h"
+#include "app/watched_camera.h"
 #include "core/base/inline_vector.h"
 #include "core/frame_path/motion.h"
 #include "core/retarget/neutral.h"
@@ -101,8 +101,7 @@ class Service {
   const char* Ailment() const noexcept;
   // Why the state is what it is, where the state alone does not say; "" else.
   const char* reason() const noexcept;
-  enum class Camera : std::uint8_t { kUp, kSilent, kGone };
-  Camera camera() const noexcept;
+  WatchedCamera::Health camera() const noexcept { return camera_.health(silence()); }
   NeutralKind neutral_kind() const noexcept { return neutral_kind_; }
 
   // The next command that this tick leaves to the service's owner, who answers it: report, reload.
@@ -124,9 +123,7 @@ class Service {
  private:
   state::Sight Look() noexcept;
   state::Sight See(const Frame& frame) noexcept;
-  void CountDamaged() noexcept;
-  void MissPicture(Errc why) noexcept;
-  void RestartCamera() noexcept;
+  void MissPicture() noexcept;
   void ReadCommands(state::Inputs& in) noexcept;
   void ReadButton(state::Inputs& in) noexcept;
   void Obey(const Request& request, state::Inputs& in) noexcept;
@@ -137,6 +134,7 @@ class Service {
   void Send(const MotionOutput& out) noexcept;
   bool MoveServos(const MotionOutput& out) noexcept;
   bool StatusDue() noexcept;
+  Duration silence() const noexcept { return config_.states.camera_timeout; }
   Duration period() const noexcept { return Duration(1'000'000 / config_.min_rate_hz); }
   Time TimeOnLine() noexcept;
 
@@ -149,15 +147,6 @@ class Service {
   std::optional<retarget::Neutral> neutral_;
   NeutralKind neutral_kind_ = NeutralKind::kNone;
 
-  bool running_ = true;        // the camera
-  bool camera_opens_ = true;   // at the last try
-  bool ended_ = false;         // the recording
-  std::uint64_t damaged_ = 0;  // pictures that the camera dropped since its start
-  Backoff restart_;
-  std::optional<std::uint64_t> last_seq_;
-  Time last_picture_{};    // by the clock
-  Time last_fresh_{};      // by the clock, a picture that was not the one before
-  Time captured_{};        // of that one
   Time acquired_{};        // the tick's picture, by the clock
   Time deadline_{};        // of the next tick, by the clock: absolute, so ticks do not drift
   Time now_{};             // of the tick
@@ -184,6 +173,7 @@ class Service {
   LatencyHistogram recent_;
   wire::Status status_;
   ServiceStats stats_;
+  WatchedCamera camera_;
 };
 
 }  // namespace facewire::app

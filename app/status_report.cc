@@ -117,13 +117,13 @@ void AddServos(const StatusReport& report, const ServoReport& now, Json& o) noex
   o.End(']');
 }
 
-const char* Name(Service::Camera camera) noexcept {
+const char* Name(WatchedCamera::Health camera) noexcept {
   switch (camera) {
-    case Service::Camera::kUp:
+    case WatchedCamera::Health::kUp:
       return "up";
-    case Service::Camera::kSilent:
+    case WatchedCamera::Health::kSilent:
       return "silent";
-    case Service::Camera::kGone:
+    case WatchedCamera::Health::kGone:
       break;
   }
   return "gone";
