@@ -202,6 +202,25 @@ TEST_F(ServoMotion, BringsAServoToAnotherRateWhereItAnswersFromThenOn) {
   EXPECT_EQ(Servo({"set", "jaw", "lock", "closed", "--config", config_, "--yes"}).code, 0);
 }
 
+TEST_F(ServoMotion, ADynamixelChangesItsRateTheSameWay) {
+  StartBus("xl", {"xl330", "--ids", "1", "--baud", "57600", "--strict-baud"});
+  config_ =
+      Write("f.toml",
+            "[character]\nrig = \"rig.toml\"\nprofile = \"\"\n[[bus]]\nname = \"face\"\nkind = "
+            "\"dynamixel\"\nbaud = 57600\nport = \"serial:" +
+                Path("xl") + "\"\n");
+  Write("rig.toml", kJawRig);
+  Outcome outcome = Servo({"set", "jaw", "baud", "1000000", "--config", config_, "--yes"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("jaw: baud is 1000000 now, as read back\n"));
+  EXPECT_EQ(Servo({"set", "jaw", "return-delay", "250", "--config", config_, "--yes"}).code, 1)
+      << "it hears at its new rate only";
+  outcome =
+      Servo({"set", "jaw", "baud", "57600", "--baud", "1000000", "--config", config_, "--yes"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(Servo({"set", "jaw", "return-delay", "250", "--config", config_, "--yes"}).code, 0);
+}
+
 TEST_F(ServoMotion, ARateThatAServoDoesNotHaveIsRefusedWithThoseThatItHas) {
   StartJaw();
   const Outcome outcome = Servo({"set", "jaw", "baud", "9600", "--config", config_, "--yes"});
