@@ -94,8 +94,8 @@ function(facewire_library name)
   endif()
 endfunction()
 
-# What nearly every test includes. A test's own code is optimised little: it takes a third of the time to compile, and
-# what it tests is built as the preset says.
+# What nearly every test includes. A test's own code is optimised little, which compiles faster; what it tests is built
+# as the preset says.
 set(FACEWIRE_TEST_OPTIONS -Og)
 function(facewire_test_headers)
   set(source "${PROJECT_BINARY_DIR}/test_headers.cc")
