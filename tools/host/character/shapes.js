@@ -46,13 +46,13 @@ const leftHalf = ([x]) => smooth(-0.7, 0.9, x);
 const upper = (p, jaw) => lips(p) * smooth(0.6, 0.2, jaw);
 const lower = (p, jaw) => lips(p) * smooth(0.4, 0.8, jaw);
 const toLine = ([, y]) => MOUTH_Y - y;
-// Along the head's surface, and `deep` into it.
-const along = ([x, y], dx, dy, deep) => [dx, dy, front(x + dx, y + dy) - front(x, y) - deep];
+// Along the head's surface.
+const along = ([x, y], dx, dy) => [dx, dy, front(x + dx, y + dy) - front(x, y)];
 
 export const mouthShapes = {
   ...jawShapes,
   ...bothSides({
-    mouthSmile: (p) => sum(along(p, 0.8 * corner(p), 0.95 * corner(p), 0), times(lips(p) * leftHalf(p), [0, 0.12 * toLine(p), -0.12])),
+    mouthSmile: (p) => sum(along(p, 0.8 * corner(p), 0.95 * corner(p)), times(lips(p) * leftHalf(p), [0, 0.12 * toLine(p), -0.12])),
     mouthFrown: (p) => times(corner(p), [0.15, -1.05, -0.15]),
     mouthDimple: (p) => times(corner(p), [0.45, 0.1, -0.6]),
     mouthStretch: (p) => times(corner(p), [1.0, -0.35, -0.5]),
